@@ -156,6 +156,8 @@ pub mod joints;
 /// axes, points from its centre of mass: `point = local([..], [..])` (the ground's axes are the
 /// global ones); the joint may then be violated at the start, which [`MechanismExt::assemble`]
 /// mends. `cut` keeps it equations in joint coordinates, see [`guide::coordinates`].
+/// `limits = [-1.0, 1.0]` and `restitution = 0.2` are stops of a hinge (rad), a slide (m) or a
+/// screw (rad), which runs heed that are told to, see [`guide::contact`](mod@guide::contact).
 ///
 /// `#[force(between = [i, j], ..)]` on a field whose type is a force, likewise, see [`forces`] and
 /// [`force!`].
@@ -233,7 +235,7 @@ pub mod prelude {
     pub use crate::joints::*;
     pub use crate::measure::Viewed;
     pub use crate::mechanism::{Assembly, InputsOf, Point, Setpoint, StateOf};
-    pub use crate::run::{Crossing, Interaction, Simulate};
+    pub use crate::run::{Crossing, Interaction, Limited, Simulate};
     pub use crate::sensitivity::SensitivityExt;
     pub use crate::spline::Spline;
     pub use crate::{

@@ -18,6 +18,7 @@ pub use crate::mechanism::{
 pub use crate::state::{Array, JointState, State};
 
 use crate::error::ParameterError;
+use crate::math::quaternion::{product, rotate};
 use crate::math::scalar::{Real, Scalar, elementary};
 use crate::mechanism::absolute::stabilised;
 use crate::mechanism::kernels::Mechanism;
@@ -110,6 +111,26 @@ pub fn exp(x: f64) -> f64 {
 #[must_use]
 pub fn deg(x: f64) -> f64 {
     x.to_radians()
+}
+
+/// Euler parameters of a rotation after another one.
+#[must_use]
+pub fn composed<S: Scalar>(outer: [S; 4], inner: [S; 4]) -> [S; 4] {
+    product(&outer, &inner)
+}
+
+/// A vector that is turned by Euler parameters of length 1.
+#[must_use]
+pub fn turned<S: Scalar>(p: [S; 4], vector: [S; 3]) -> [S; 3] {
+    rotate(&p, &vector)
+}
+
+/// A rotation that is seen in a mirror across an axis.
+#[must_use]
+pub fn mirrored<S: Scalar>(p: [S; 4], axis: usize) -> [S; 4] {
+    let [e0, e1, e2, e3] = p;
+    let seen = |place: usize, e: S| if place == axis { e } else { -e };
+    [e0, seen(0, e1), seen(1, e2), seen(2, e3)]
 }
 
 /// Whether principal moments of inertia are those of no body: one is larger than the others

@@ -93,7 +93,8 @@ pub(crate) struct Joint {
     pub(crate) mimic: Option<Mimic>,
 }
 
-/// What the file says of the range of a joint. Nothing in the mechanism holds it within this range.
+/// What the file says of the range of a joint. A run that is told to heeds positions; nothing in
+/// the mechanism holds rates and efforts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Lowest and highest position (rad, of a slide m), infinite where there is none.
@@ -110,6 +111,12 @@ impl Limits {
         rate: f64::INFINITY,
         effort: f64::INFINITY,
     };
+
+    /// Whether two positions are given, the lower one first.
+    pub(crate) fn leave_a_range(&self) -> bool {
+        let [lower, upper] = self.position;
+        lower < upper && lower.is_finite() && upper.is_finite()
+    }
 }
 
 #[derive(Clone, Debug)]

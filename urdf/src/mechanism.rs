@@ -126,7 +126,7 @@ pub struct Joint {
     pub point: [f64; 3],
     /// The axis, of a plane its normal: global axes, of the length that the file gives.
     pub axis: [f64; 3],
-    /// What nothing in the mechanism enforces.
+    /// Positions become `limits` of the joint; nothing in the mechanism enforces the rest.
     pub limits: Limits,
     /// In N m s/rad, of a slide N s/m.
     pub damping: f64,

@@ -31,14 +31,12 @@ pub enum CheckpointFault {
         /// The largest difference, relative to the rates.
         difference: f64,
     },
-    /// The run had other events or controllers.
+    /// The run had other events, controllers or interactions.
     Happenings,
     /// What the method remembers does not fit.
     Memory,
     /// The method does not hand over what it remembers.
     Forgetful,
-    /// The run has [`Interaction`](crate::run::Interaction)s, whose modes no checkpoint keeps.
-    Interactions,
 }
 
 impl fmt::Display for CheckpointFault {
@@ -75,17 +73,13 @@ impl fmt::Display for CheckpointFault {
                  forces are not the same"
             ),
             Self::Happenings => f.write_str(
-                "the checkpoint is of a run with other events or controllers; give the same ones, in the same order",
+                "the checkpoint is of a run with other events, controllers or interactions; give the same ones, in the same order",
             ),
             Self::Memory => f.write_str(
                 "what the checkpoint keeps of the method does not fit this run: the file is damaged, or not of this mechanism",
             ),
             Self::Forgetful => f.write_str(
                 "the method does not hand over what it remembers, so no checkpoint can be made; implement `Integration::remember`",
-            ),
-            Self::Interactions => f.write_str(
-                "the run has interactions, whose modes no checkpoint keeps; let the runs end where it matters, and begin each with the state of \
-                 the last",
             ),
         }
     }

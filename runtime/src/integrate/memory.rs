@@ -46,6 +46,14 @@ impl<S: Real> Memory<'_, S> {
         self.tape.count(count);
     }
 
+    /// The place of a variant among so many.
+    pub(crate) fn variant(&mut self, place: &mut usize, of: usize) {
+        self.count(place);
+        if *place >= of {
+            self.tape.refuse();
+        }
+    }
+
     /// A flag.
     pub fn flag(&mut self, flag: &mut bool) {
         let mut count = usize::from(*flag);

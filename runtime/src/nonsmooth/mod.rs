@@ -12,18 +12,21 @@
 //! Within a step the modes are fixed (`efforts.rs`). Between steps `switch.rs` finds impulses, then
 //! `choice.rs` modes. `interaction.rs` is what a user writes, `status.rs` what a run knows of it.
 //!
-//! `turning.rs` counts the turns of an angle that has limits.
+//! `described.rs` has the limits of a description. `remembered.rs` hands their statuses to
+//! checkpoints. `turning.rs` counts the turns of an angle that has limits.
 //!
 //! The reasons are in `docs/decisions/027-interactions.md`.
 
 mod box_problem;
 mod choice;
 pub(crate) mod columns;
+pub(crate) mod described;
 mod efforts;
 pub(crate) mod impulse;
 pub(crate) mod interaction;
 pub(crate) mod place;
 pub(crate) mod quantity;
+mod remembered;
 pub(crate) mod scene;
 pub(crate) mod status;
 mod switch;

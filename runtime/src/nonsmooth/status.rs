@@ -2,6 +2,7 @@
 
 use core::cell::Cell;
 
+use crate::integrate::Memory;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::interaction::{Interaction, Law};
@@ -229,6 +230,15 @@ impl<S: Real> Status<S> {
             -reading
         } else {
             -(reading + self.band)
+        }
+    }
+
+    /// Hands over on which side of its zero the condition is.
+    pub(super) fn remember_side(&mut self, memory: &mut Memory<'_, S>) {
+        memory.flag(&mut self.has_left);
+        // It is of no account otherwise, and may be infinite.
+        if !self.has_left {
+            memory.number(&mut self.band);
         }
     }
 

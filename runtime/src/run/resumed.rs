@@ -63,10 +63,12 @@ where
     A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
-    /// Takes over what was counted, and what events and the monitor remember.
+    /// Takes over what was counted, and what events, interactions and the monitor remember.
     pub(crate) fn take_past(&mut self, past: &Past<'_, S, M>) -> Result<(), Fault> {
+        self.begin_interactions()?;
+        let list = self.dynamics.tracked();
         let is_whole = match &mut self.hybrid {
-            Some(hybrid) => past.events.read(|memory| hybrid.remember(memory)),
+            Some(hybrid) => past.events.read(|memory| hybrid.remember(list, memory)),
             None => past.events.read(|_| ()),
         };
         if !is_whole {

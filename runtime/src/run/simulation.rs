@@ -244,6 +244,17 @@ where
         self
     }
 
+    /// The parameters; zeros of those that a run refuses.
+    pub(super) fn given(&self) -> M::Parameters<S> {
+        match self.mechanism {
+            Source::Mechanism(mechanism) => {
+                let parameters = mechanism.parameters::<S>();
+                parameters.unwrap_or_else(|_| M::Parameters::zeros())
+            }
+            Source::Parameters(parameters) => parameters,
+        }
+    }
+
     pub(super) fn exchange<A2, C2>(
         self,
         forces: impl FnOnce(A) -> A2,

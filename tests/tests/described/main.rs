@@ -5,6 +5,7 @@
 
 mod dependent;
 mod descriptions;
+mod oriented;
 mod placing;
 mod redundant;
 mod scales;

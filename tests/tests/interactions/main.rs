@@ -6,6 +6,7 @@ mod block;
 mod bounces;
 mod contacts;
 mod currents;
+mod described;
 mod descriptions;
 mod faults;
 mod loops;

@@ -2,7 +2,6 @@
 
 use std::cell::{Cell, RefCell};
 
-use holonom::error::CheckpointFault;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::Checkpoint;
@@ -161,23 +160,6 @@ fn a_run_stops_at_a_checkpoint() {
     let last = last.expect("one");
     assert_eq!(stopped.time, last.time());
     assert_eq!(build().resume(&last, |_| ()).expect("it goes on"), whole);
-}
-
-/// Their modes are not kept, and the run says so.
-#[test]
-fn a_run_with_interactions_has_no_checkpoint() {
-    let flap = flap();
-    let friction = Interaction::friction(Flap::HANDLES.hinge.angle(), 0.1);
-    let error = flap
-        .simulation(StandardLagrange, Rk4::every(0.01))
-        .interactions([friction])
-        .checkpoints(10, |_| ())
-        .run(0.0..=1.0, every(0.1), |_| ())
-        .expect_err("no checkpoint");
-    assert_eq!(
-        error.fault,
-        Fault::Checkpoint(CheckpointFault::Interactions)
-    );
 }
 
 /// A pendulum on a slide that is driven from outside.

@@ -178,7 +178,7 @@ fn runs_of_another_kind_are_refused() {
         .resume(&checkpoint, |_| ());
     assert_eq!(
         fault(period),
-        "the checkpoint is of a run with other events or controllers; give the same ones, in the same order"
+        "the checkpoint is of a run with other events, controllers or interactions; give the same ones, in the same order"
     );
     let forced = run().forces(|_, _, loads| loads.force(Flap::HANDLES.door, [1.0, 0.0, 0.0]));
     assert!(fault(forced.resume(&checkpoint, |_| ())).contains("closure of forces"));

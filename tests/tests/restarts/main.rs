@@ -5,6 +5,7 @@
 mod crossed;
 mod events;
 mod files;
+mod interactions;
 mod methods;
 mod trajectories;
 

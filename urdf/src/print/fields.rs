@@ -145,17 +145,25 @@ fn joint(page: &mut Page, mechanism: &Mechanism, joint: &Joint) {
     } else {
         "axis"
     };
-    let pairs = [
+    let mut pairs = vec![
         between(mechanism, joint),
         ("point", vector(&joint.point)),
         (axis, vector(&joint.axis)),
     ];
+    if joint.limits.leave_a_range() {
+        pairs.push(("limits", vector(&joint.limits.position)));
+    }
     page.attribute("joint", &pairs);
     page.line(1, &format!("{}: {kind},", joint.field));
 }
 
 /// What acts in the joint by the file, and not here.
 fn left_out(page: &mut Page, joint: &Joint) {
+    let [lower, upper] = joint.limits.position;
+    if lower.is_finite() && !joint.limits.leave_a_range() {
+        let text = format!("Limits from {lower} to {upper} are left out: they leave no range.");
+        page.comment(1, "//", &text);
+    }
     let mut say = |what: &str, amount: f64, unit: &str, reason: &str| {
         if amount > 0.0 {
             let text = format!("{what} of {}{unit} is left out: {reason}.", number(amount));
@@ -164,7 +172,7 @@ fn left_out(page: &mut Page, joint: &Joint) {
     };
     if joint.kind.is_single() {
         let unit = if joint.kind.is_turn() { " N m" } else { " N" };
-        let reason = "add it in a closure of forces, smoothed near rest";
+        let reason = "a run takes it as an `Interaction::friction`";
         say("Dry friction", joint.friction, unit, reason);
     } else {
         let reason = "the joint has more than one motion";

@@ -5,6 +5,7 @@
 
 mod equations;
 mod in_place;
+mod limits;
 mod regressor;
 mod robots;
 mod shapes;

@@ -119,16 +119,30 @@ fn what_is_left_out_is_said() {
         <joint name="one" type="floating"><parent link="base"/><child link="a"/>
         <dynamics damping="0.5"/></joint>
         <joint name="two" type="prismatic"><parent link="base"/><child link="b"/>
-        <dynamics friction="0.25"/></joint></robot>"#;
+        <limit lower="0" upper="0" effort="1" velocity="1"/><dynamics friction="0.25"/></joint></robot>"#;
     let mechanism = Robot::parse(text)
         .expect("sound")
         .mechanism(&Options::default());
     let source = mechanism.expect("it moves").to_string();
     for said in [
         "// Damping of 0.5 is left out",
-        "// Dry friction of 0.25 N is left out",
+        "// Dry friction of 0.25 N is left out: a run takes it as an `Interaction::friction`.",
+        "// Limits from 0 to 0 are left out: they leave no range.",
         "free",
     ] {
         assert!(source.contains(said), "{source}");
     }
+    assert!(!source.contains("limits = "), "{source}");
+}
+
+#[test]
+fn limits_of_positions_are_those_of_the_joints() {
+    let mechanism = crate::mechanism("crane");
+    let source = mechanism.to_string();
+    for joint in &mechanism.joints {
+        let [lower, upper] = joint.limits.position;
+        let written = format!("limits = [{lower:?}, {upper:?}]");
+        assert_eq!(source.contains(&written), lower.is_finite(), "{written}");
+    }
+    assert_eq!(source.matches("limits = ").count(), 4, "{source}");
 }

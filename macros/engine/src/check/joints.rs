@@ -4,9 +4,11 @@ use proc_macro2::{Ident, Span, TokenStream};
 use syn::Expr;
 use syn::spanned::Spanned;
 
+use super::apart;
 use super::between::{Between, Mentioned};
 use super::definition::{Definition, Definitions, definition};
 use super::expression::too_large;
+use super::fixed::{turns, uses};
 use super::laws::LawReader;
 use super::mirror::pseudovectors;
 use super::number::{AT_LIKES, Numbers, elements};
@@ -16,8 +18,8 @@ use super::points::{NamedPoints, position_of};
 use crate::diag::{Faults, code, list};
 use crate::model::number::literals;
 use crate::model::{
-    Action, Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent, Number,
-    ParameterKind, Term,
+    Binding, Body, BodyKind, Coordinates, Element, ElementDef, ElementKind, Extent, Number,
+    ParameterKind,
 };
 use crate::syntax::array::is_index;
 use crate::syntax::mechanism::Field;
@@ -135,6 +137,7 @@ impl JointChecker<'_> {
             );
         }
         let is_cut = self.cut(joint, &mut pairs, faults);
+        let limits = self.limits(joint, &mut pairs, numbers, faults);
         let mut bindings = Vec::new();
         for parameter in &joint.parameters {
             let key = parameter.name.to_string();
@@ -206,6 +209,7 @@ impl JointChecker<'_> {
             dropped: Vec::new(),
             is_cut,
             read: Vec::new(),
+            limits,
         })
     }
 
@@ -445,6 +449,16 @@ impl JointChecker<'_> {
                     _ => false,
                 };
                 if !at_centre {
+                    let [at, from] = match (&bindings[parameter], uses) {
+                        (Binding::Global(point), ParameterKind::Point) => {
+                            [literals(point), literals(&body.position)]
+                        }
+                        (Binding::Local(points), ParameterKind::Point) => {
+                            [literals(&points[place]), Some([0.0; 3])]
+                        }
+                        _ => [None; 2],
+                    };
+                    let beside = apart::beside(at, from);
                     let parameter = &joint.parameters[parameter].name;
                     let key = parameter;
                     let written = self.field.list.pairs.iter().find(|pair| pair.key == *key);
@@ -455,7 +469,7 @@ impl JointChecker<'_> {
                         }),
                         format!(
                             "{} `{}` fixes `{parameter}` on the particle `{}`, which has no orientation: only a point \
-                             at the particle's own position can be fixed on it",
+                             at the particle's own position can be fixed on it{beside}",
                             self.kind.word(), self.field.name, body.name
                         ),
                     );
@@ -465,37 +479,6 @@ impl JointChecker<'_> {
         }
         sound
     }
-}
-
-/// Whether a definition fixes a vector of its own on one of its bodies, or exerts a moment on it.
-fn turns(joint: &ElementDef, body: usize) -> bool {
-    let moment = |action: &Action| matches!(action, Action::Moment { body: b, .. } if *b == body);
-    let onto = |term: &Term| matches!(term, Term::Onto(b, _) if *b == body);
-    joint.terms().any(|term| term.has(onto)) || joint.actions.iter().any(moment)
-}
-
-/// The vector parameters that a definition fixes on one of its bodies.
-fn uses(joint: &ElementDef, body: usize) -> Vec<(usize, ParameterKind)> {
-    let mut found = Vec::new();
-    let mut note = |term: &Term| match term {
-        Term::Point { body: b, parameter }
-        | Term::Fixed { body: b, parameter }
-        | Term::Normal {
-            body: b, parameter, ..
-        } if *b == body => found.push(*parameter),
-        Term::Angle(turn) if turn.from == body || turn.to == body => found.push(turn.axis),
-        _ => {}
-    };
-    joint.terms().for_each(|term| term.visit(&mut note));
-    if let Some(angle) = joint.angle {
-        note(&Term::Angle(angle));
-    }
-    found.sort_unstable();
-    found.dedup();
-    found
-        .into_iter()
-        .map(|parameter| (parameter, joint.parameters[parameter].kind))
-        .collect()
 }
 
 /// "1 body", "2 bodies".

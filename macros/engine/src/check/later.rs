@@ -148,7 +148,7 @@ impl Value {
 }
 
 /// Places of two lists, in order.
-fn union(a: &[usize], b: &[usize]) -> Vec<usize> {
+pub(super) fn union(a: &[usize], b: &[usize]) -> Vec<usize> {
     let mut all = [a, b].concat();
     all.sort_unstable();
     all.dedup();

@@ -27,7 +27,7 @@ impl Numbers<'_> {
         self.linear([-1.0], [number], Number::ZERO)
     }
 
-    fn later(&self, number: Number) -> Value {
+    pub(super) fn later(&self, number: Number) -> Value {
         let (place, is_varying) = match number {
             Number::Literal(value) => return Value::Literal(value),
             Number::Symbol(place) => (place, false),

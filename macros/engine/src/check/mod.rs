@@ -10,7 +10,7 @@
 //!   reference configuration, where there is no time and no rate.
 //! - `number.rs`: numbers the macro can see. A path or a run-time value becomes a symbol with two
 //!   expressions: one in `f64` for checks, one over the scalar type for kernels.
-//! - `linear.rs`: linear functions of such numbers.
+//! - `linear.rs`, `turning.rs`: linear functions of such numbers, and rotations by them.
 //! - `laws.rs`: laws that a mechanism writes for a force or a driver.
 //! - `states.rs`: rates of the user's own states.
 //! - `readings.rs`: what these read of joints and forces.
@@ -19,28 +19,34 @@
 //!   may be is given the reason.
 //! - `elements.rs`: elements of arrays such as `links[k - 1]`, resolved by integer arithmetic once
 //!   all names are known (`syntax/integer.rs`). See `docs/decisions/003-arrays-of-fields.md`.
+//! - `fixed.rs`: what a definition fixes on its bodies.
 //! - `between.rs`: bodies by name, of the mechanism and of its parts.
 //! - `points.rs`: named points.
 //! - `parts.rs`, `placement.rs`, `mirror.rs`: where parts are, and what that makes of what is in
 //!   them. See `docs/decisions/022-assemblies.md`.
+//! - `limits.rs`: limits of joints that leave one coordinate free.
 //! - `asked.rs`: kernels that are asked for by `kernels = [..]`.
 //! - `redundant.rs`, `moves.rs`: refusals of what `rank` found by numbers. `passes` hands it over.
+//!   `apart.rs` says how far from each other things are.
 //!
 //! Bounds. `syntax/depth.rs` limits nesting before anything recurses. `model::Extent` limits what
 //! is differentiated. Both refuse.
 
+mod apart;
 mod asked;
 mod between;
 pub mod bodies;
 pub mod definition;
 mod elements;
 mod expression;
+mod fixed;
 mod functions;
 pub mod joint;
 mod joints;
 pub mod kinds;
 mod later;
 mod laws;
+mod limits;
 mod linear;
 pub mod mechanism;
 mod mirror;
@@ -55,6 +61,7 @@ mod readings;
 mod redundant;
 mod states;
 mod tables;
+mod turning;
 mod values;
 
 use crate::diag::Faults;

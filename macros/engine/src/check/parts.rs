@@ -9,8 +9,8 @@ use super::bodies;
 use super::number::Numbers;
 use super::pairs::Pairs;
 use super::placement::Placement;
+use super::turning::Turn;
 use crate::diag::Faults;
-use crate::model::inertia::IDENTITY;
 use crate::model::name::Step;
 use crate::model::{Name, Number};
 use crate::syntax::mechanism::{MechanismSyntax, PartSyntax};
@@ -91,7 +91,7 @@ fn part<'a>(written: &'a PartSyntax, numbers: &mut Numbers<'_>, faults: &mut Fau
     };
     let rotation = match pairs.optional("rotation", faults) {
         Some(expr) => bodies::rotation(name, "rotation", expr, numbers, faults),
-        None => Some(IDENTITY),
+        None => Some(Turn::NONE),
     };
     let written_mirror = pairs.optional("mirror", faults);
     let mirror = written_mirror.map_or(Some(None), |expr| mirror(expr, faults));

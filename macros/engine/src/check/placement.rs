@@ -1,6 +1,7 @@
 //! Where a part is: its points, directions and rotations, from its own axes to global ones.
 
 use super::number::Numbers;
+use super::turning::Turn;
 use crate::model::inertia::{IDENTITY, compose, rotation};
 use crate::model::{Binding, Body, Number, ParameterKind, Shape};
 
@@ -9,8 +10,8 @@ use crate::model::{Binding, Body, Number, ParameterKind, Shape};
 pub(super) struct Placement {
     /// The axis that the plane of the mirror is perpendicular to.
     pub(super) mirror: Option<usize>,
-    /// Euler parameters of the rotation.
-    pub(super) rotation: [f64; 4],
+    /// The rotation.
+    pub(super) rotation: Turn,
     /// The translation (m).
     pub(super) at: [Number; 3],
 }
@@ -18,7 +19,8 @@ pub(super) struct Placement {
 impl Placement {
     /// The placement of a part of this part.
     pub(super) fn of_part(&self, inner: &Self, numbers: &mut Numbers<'_>) -> Self {
-        let turned = compose(self.rotation, mirrored(inner.rotation, self.mirror));
+        let seen = numbers.mirrored(&inner.rotation, self.mirror);
+        let turned = numbers.composed(&self.rotation, &seen);
         let (mirror, turned) = match (self.mirror, inner.mirror) {
             (one, None) | (None, one) => (one, turned),
             (Some(a), Some(b)) if a == b => (None, turned),
@@ -26,7 +28,7 @@ impl Placement {
             (Some(a), Some(b)) => {
                 let mut half = [0.0; 4];
                 half[1 + (3 - a - b)] = 1.0;
-                (None, compose(turned, half))
+                (None, numbers.composed(&turned, &Turn::Seen(half)))
             }
         };
         Self {
@@ -36,25 +38,32 @@ impl Placement {
         }
     }
 
-    /// The matrix of mirror and rotation.
-    fn matrix(&self) -> [[f64; 3]; 3] {
-        let mut matrix = rotation(self.rotation);
-        if let Some(axis) = self.mirror {
-            matrix.iter_mut().for_each(|row| row[axis] = -row[axis]);
-        }
-        matrix
-    }
-
     /// A point in global axes.
     pub(super) fn point(&self, point: [Number; 3], numbers: &mut Numbers<'_>) -> [Number; 3] {
-        let matrix = self.matrix();
-        [0, 1, 2].map(|k| numbers.linear(matrix[k], point, self.at[k]))
+        self.applied(point, self.at, numbers)
     }
 
     /// A direction in global axes.
     fn direction(&self, direction: [Number; 3], numbers: &mut Numbers<'_>) -> [Number; 3] {
-        self.matrix()
-            .map(|row| numbers.linear(row, direction, Number::ZERO))
+        self.applied(direction, [Number::ZERO; 3], numbers)
+    }
+
+    /// Mirrored, then turned; and something added.
+    fn applied(
+        &self,
+        vector: [Number; 3],
+        constant: [Number; 3],
+        numbers: &mut Numbers<'_>,
+    ) -> [Number; 3] {
+        let Some(p) = self.rotation.seen() else {
+            let mirrored = self.local(vector, numbers);
+            return numbers.turned(&self.rotation, mirrored, constant);
+        };
+        let mut matrix = rotation(p);
+        if let Some(axis) = self.mirror {
+            matrix.iter_mut().for_each(|row| row[axis] = -row[axis]);
+        }
+        [0, 1, 2].map(|k| numbers.linear(matrix[k], vector, constant[k]))
     }
 
     /// A vector in the axes of a body, which are mirrored with it.
@@ -90,8 +99,12 @@ impl Placement {
         body.shapes.iter_mut().for_each(|shape| self.shape(shape));
     }
 
-    /// Euler parameters of a body's axes.
+    /// Euler parameters of a body's axes, of any length.
     fn orientation(&self, p: [Number; 4], numbers: &mut Numbers<'_>) -> [Number; 4] {
+        let Some(rotation) = self.rotation.seen() else {
+            let p = numbers.mirrored(&numbers.turn(p), self.mirror);
+            return numbers.parameters(&numbers.composed(&self.rotation, &p));
+        };
         let mut p = p;
         if let Some(axis) = self.mirror {
             for k in [0, 1, 2] {
@@ -100,10 +113,10 @@ impl Placement {
                 }
             }
         }
-        if self.rotation == IDENTITY {
+        if rotation == IDENTITY {
             return p;
         }
-        let [a, b, c, d] = self.rotation;
+        let [a, b, c, d] = rotation;
         let product = [[a, -b, -c, -d], [b, a, -d, c], [c, d, a, -b], [d, -c, b, a]];
         product.map(|row| numbers.linear(row, p, Number::ZERO))
     }

@@ -4,12 +4,14 @@ use quote::ToTokens;
 use syn::Expr;
 use syn::spanned::Spanned;
 
+use super::apart;
 use super::between::Between;
 use super::elements::{Found, Reference};
 use super::number::Numbers;
 use super::pairs::Pairs;
 use super::parts::Part;
 use crate::diag::{Faults, code};
+use crate::model::number::literals;
 use crate::model::{Body, BodyKind, Name, NamedPoint, Number};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
 
@@ -86,8 +88,9 @@ fn point(
             at?,
             format!(
                 "point `{name}` is fixed on the particle `{}`, which has no orientation: only a point at the particle's own position can be \
-                 fixed on it",
-                particle.name
+                 fixed on it{}",
+                particle.name,
+                apart::beside(literals(&position), literals(&particle.position))
             ),
         );
         return None;

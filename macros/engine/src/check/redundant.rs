@@ -2,6 +2,7 @@
 
 use syn::Expr;
 
+use super::apart;
 use crate::diag::{Faults, list};
 use crate::model::{Binding, Contradiction, Model, Name, Rank, Redundant, RedundantRow};
 
@@ -61,8 +62,11 @@ fn stuck(model: &Model, faults: &mut Faults) {
         .filter(|(joint, _)| !model.joints[*joint].bindings.iter().any(is_local))
         .collect();
     once_a_joint(model, &stuck, faults, |name, row| {
+        let place = model.joints.iter().position(|joint| joint.name == *name);
+        let apart = place.and_then(|place| apart::of_joint(model, place, None));
+        let apart = apart.map_or_else(String::new, |apart| format!(" ({apart})"));
         format!(
-            "`{name}[{row}]` does not hold in the reference configuration, and no motion that begins there brings it nearer: look for \
+            "`{name}[{row}]` does not hold in the reference configuration{apart}, and no motion that begins there brings it nearer: look for \
                  axes of `{name}` that are parallel and should be perpendicular, and for points that should be apart; what is meant for \
                  another configuration is given by `local(..)`"
         )
@@ -118,6 +122,7 @@ fn contradictions(model: &Model, faults: &mut Faults) {
             against,
             time,
             by_speed,
+            way,
         } = contradiction;
         let name = &model.joints[*joint].name;
         let equations = match against.as_slice() {
@@ -127,9 +132,11 @@ fn contradictions(model: &Model, faults: &mut Faults) {
                 format!("equations of {}", list(names))
             }
         };
+        let apart = apart::of_joint(model, *joint, Some(way)).filter(|_| !by_speed);
+        let apart = apart.map_or_else(String::new, |apart| format!(" ({apart})"));
         let (what, cure) = match (model.independence.is_driven, by_speed) {
             (false, _) => (
-                "where those hold, it does not".into(),
+                format!("where those hold, it does not{apart}"),
                 "look for a point, an axis, a length or a law that does not fit",
             ),
             (true, by_speed) => {
@@ -138,10 +145,10 @@ fn contradictions(model: &Model, faults: &mut Faults) {
                 } else {
                     "it is violated"
                 };
-                let time = brief(*time);
+                let time = apart::brief(*time, 3);
                 (
                     format!(
-                        "where those hold, {how} at time = {time} s, so that no motion satisfies all of them"
+                        "where those hold, {how} at time = {time} s{apart}, so that no motion satisfies all of them"
                     ),
                     "let them ask for the same, or leave one out",
                 )
@@ -154,18 +161,6 @@ fn contradictions(model: &Model, faults: &mut Faults) {
             ),
         );
     }
-}
-
-/// A time to three digits.
-fn brief(time: f64) -> String {
-    let digits = if time == 0.0 {
-        0
-    } else {
-        2 - time.abs().log10().floor() as i32
-    };
-    let scale = 10.0_f64.powi(digits);
-    let rounded = (time * scale).round() / scale;
-    format!("{rounded}")
 }
 
 /// Why equations that follow from others cannot be found, and what to do.

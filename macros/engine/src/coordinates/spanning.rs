@@ -137,7 +137,15 @@ fn able(model: &Model) -> Vec<bool> {
     };
     for body in &mut seen.bodies {
         body.position.iter_mut().for_each(any);
+        if literals(&body.orientation).is_some() {
+            continue;
+        }
         body.orientation.iter_mut().for_each(any);
+        // Those that are written have the length 1, and others get it where the code runs.
+        if let Some(p) = literals(&body.orientation) {
+            let length = p.iter().map(|e| e * e).sum::<f64>().sqrt();
+            body.orientation = p.map(|e| Number::Literal(e / length));
+        }
     }
     for binding in seen.joints.iter_mut().flat_map(|joint| &mut joint.bindings) {
         match binding {

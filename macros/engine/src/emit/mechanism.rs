@@ -7,6 +7,7 @@ use super::construction::of_mechanism;
 use super::coordinates;
 use super::documentation::documentation;
 use super::inputs::{Inputs, inputs_of, taken};
+use super::limits::limits;
 use super::parameters;
 use super::parts::Frame;
 use super::report::report;
@@ -74,6 +75,7 @@ impl Writer<'_> {
         let splines = splines::functions(model, facade);
         let parameters = parameters::parameters(model, facade);
         let construction = of_mechanism(model, facade);
+        let limits = limits(model, facade);
         let vector_rows = &kernels.vector_rows;
         let joints = self.in_joint_coordinates();
         let default_coordinates = match model.coordinates {
@@ -126,6 +128,7 @@ impl Writer<'_> {
                 #parts
 
                 #joints
+                #limits
 
                 #construction
             };

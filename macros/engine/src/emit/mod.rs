@@ -34,6 +34,7 @@ mod joint_rates;
 mod joint_report;
 mod joint_solution;
 mod likes;
+mod limits;
 pub mod mechanism;
 mod nested;
 pub mod parameters;

@@ -201,15 +201,17 @@ impl Environment for Preparation<'_> {
 /// A symbol as it was written.
 fn written(symbols: &[Symbol], input: Input) -> TokenStream {
     match input {
-        Input::Symbol(place) | Input::Varying(place) => {
-            let symbol = &symbols[place as usize];
-            let expression = &symbol.expression;
-            match &symbol.scalar {
-                Some(scalar) => scalar.clone(),
-                None => quote!(__S::constant(#expression)),
-            }
-        }
+        Input::Symbol(place) | Input::Varying(place) => of_symbol(&symbols[place as usize]),
         other => load_input(other),
+    }
+}
+
+/// The same, over the scalar `__S`.
+pub(super) fn of_symbol(symbol: &Symbol) -> TokenStream {
+    let expression = &symbol.expression;
+    match &symbol.scalar {
+        Some(scalar) => scalar.clone(),
+        None => quote!(__S::constant(#expression)),
     }
 }
 

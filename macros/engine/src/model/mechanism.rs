@@ -147,6 +147,17 @@ pub struct Element {
     pub is_cut: bool,
     /// What rates of states read of it.
     pub read: Vec<Term>,
+    /// Its limits, where it has some.
+    pub limits: Option<Limits>,
+}
+
+/// The limits of a joint that leaves one coordinate free: on its angle, else its displacement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// The lower and the upper one (rad, m).
+    pub bounds: [Number; 2],
+    /// Newton's coefficient, from 0 to 1.
+    pub restitution: Number,
 }
 
 /// A state of the user's own: a number that integrates a rate.

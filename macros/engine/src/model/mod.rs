@@ -21,7 +21,8 @@ pub use joint::{
     Turn,
 };
 pub use mechanism::{
-    Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, NamedPoint, Part, UserState,
+    Binding, Body, BodyKind, Coordinates, Element, LawTerm, Limits, Model, NamedPoint, Part,
+    UserState,
 };
 pub use motion::{Direction, Motion};
 pub use name::Name;

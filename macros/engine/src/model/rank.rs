@@ -58,6 +58,8 @@ pub struct Contradiction {
     pub time: f64,
     /// Whether it holds then, but asks for another speed.
     pub by_speed: bool,
+    /// Coordinates of the bodies: as they are described, and where it shows.
+    pub way: [Vec<f64>; 2],
 }
 
 /// What was found out about the equations of a mechanism.

@@ -31,6 +31,8 @@ pub(super) struct Contradicted {
     pub(super) time: f64,
     /// Whether it holds then and asks for another speed.
     pub(super) by_speed: bool,
+    /// Where it is seen: coordinates.
+    pub(super) at: Vec<f64>,
 }
 
 /// The largest violation that counts as none: laws over long ways have as many digits as those over
@@ -112,7 +114,7 @@ fn by_place(
         return Some(Vec::new());
     };
     let violated = violated(constraints, start, &here)?;
-    let time = here.time;
+    let (time, at_first) = (here.time, here.coordinates.clone());
     for at in walk(constraints, here, Some(kept), random) {
         let rows = constraints.directions(&at, TOLERANCE)?;
         if independent(&[rows], TOLERANCE).len() > kept.len() {
@@ -124,6 +126,7 @@ fn by_place(
         row,
         time,
         by_speed: false,
+        at: at_first.clone(),
     });
     Some(rows.collect())
 }
@@ -172,6 +175,7 @@ pub(super) fn nowhere(
             row,
             time: near.time,
             by_speed: false,
+            at: near.coordinates.clone(),
         });
         Some((found.collect(), Vec::new()))
     })
@@ -263,6 +267,7 @@ pub(super) fn by_speed(
                 row,
                 time: at.time,
                 by_speed: true,
+                at: at.coordinates.clone(),
             })
             .collect();
         if !found.is_empty() {

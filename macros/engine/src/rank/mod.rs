@@ -107,7 +107,7 @@ pub fn judge(model: &Model) -> Independence {
         let found = contradiction::nowhere(&constraints, &described, &described, &mut random);
         let found = found.and_then(|(found, kept)| {
             let rows = constraints.directions(&described, TOLERANCE)?;
-            Some(contradictions(model, found, &kept, &rows))
+            Some(contradictions(model, found, &kept, &rows, &described))
         });
         let layout = model.layout();
         let stuck = constraints.stuck(&described).into_iter();
@@ -175,7 +175,7 @@ pub fn judge(model: &Model) -> Independence {
             }
         }
         let rows = rows.unwrap_or_default();
-        let contradictions = contradictions(model, against, &kept_there, &rows);
+        let contradictions = contradictions(model, against, &kept_there, &rows, &described);
         if !contradictions.is_empty() {
             return Independence {
                 contradictions,
@@ -312,6 +312,7 @@ fn contradictions(
     found: Vec<Contradicted>,
     kept: &[usize],
     rows: &Rows,
+    described: &Configuration,
 ) -> Vec<Contradiction> {
     if found.is_empty() {
         return Vec::new();
@@ -326,6 +327,7 @@ fn contradictions(
             against: row.follows_from.clone(),
             time: contradicted.time,
             by_speed: contradicted.by_speed,
+            way: [described.coordinates.clone(), contradicted.at],
         })
     });
     found.collect()

@@ -170,6 +170,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         dropped: Vec::new(),
         is_cut: false,
         read: Vec::new(),
+        limits: None,
     };
     Model {
         name: joint.name.clone(),

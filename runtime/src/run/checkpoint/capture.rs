@@ -86,9 +86,6 @@ where
         I: Integrator<S, Dynamics<S, M, F, A, C>>,
         K: Integration<S, C::State<S>>,
     {
-        if A::INTERACTS {
-            return Err(Fault::Checkpoint(CheckpointFault::Interactions));
-        }
         let (seen, iterations) = (self.dynamics.seen(), self.dynamics.iterations());
         let of_integration = match &under_way {
             Some((integration, _)) => *integration.state(),
@@ -111,7 +108,7 @@ where
         };
         let (interval, reporting, reports) = self.schedule.parts();
         let (events, ()) = Kept::of(|memory| {
-            hybrid.remember(memory);
+            hybrid.remember(self.dynamics.tracked(), memory);
         });
         let mut warnings = hybrid.former.clone();
         if let Some(mut monitor) = self.monitor {

@@ -25,9 +25,9 @@ where
     /// shown and reported from there on is what the whole run would have shown and reported.
     ///
     /// Build the simulation as that of the run: the same mechanism with the values of its start,
-    /// the same formulation, method, coordinates, corrections, breaks, forces, events and
-    /// controllers. The initial state is of no account. [`HybridSimulation::resume`] goes on with
-    /// events, controllers and further checkpoints.
+    /// the same formulation, method, coordinates, corrections, breaks, forces, interactions, events
+    /// and controllers. The initial state is of no account. [`HybridSimulation::resume`] goes on with
+    /// interactions, events, controllers and further checkpoints.
     ///
     /// ```
     /// use holonom::prelude::*;

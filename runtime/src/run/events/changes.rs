@@ -1,6 +1,7 @@
 //! How often modes of interactions change at once.
 
 use crate::error::Fault;
+use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::status::Tracked;
@@ -26,6 +27,12 @@ impl<S: Real> Changes<S> {
             last: None,
             at_once: 0,
         }
+    }
+
+    /// Hands over what it has counted.
+    pub(super) fn remember(&mut self, memory: &mut Memory<'_, S>) {
+        memory.optional(&mut self.last);
+        memory.count(&mut self.at_once);
     }
 
     /// Counts the end of a mode.

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::extent::largest;
 use crate::dynamics::Dynamics;
-use crate::error::{CheckpointFault, Fault};
+use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::Integrator;
 use crate::math::scalar::Real;
@@ -81,14 +81,16 @@ where
         &mut self,
         (time, state): &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
-        if A::INTERACTS {
-            return Err(Fault::Checkpoint(CheckpointFault::Interactions));
-        }
         let Some(mut hybrid) = self.hybrid.take() else {
             return Ok(());
         };
         if *time < hybrid.end {
+            let before = self.monitor.is_some().then(|| self.energies(*time, state));
             let done = self.call(&mut hybrid, Called::Controllers, *time, state)?;
+            if done.changed {
+                self.switch(&mut hybrid, *time, state, true)?;
+            }
+            self.account(before, *time, state);
             if done.stops {
                 self.log.stop();
             }

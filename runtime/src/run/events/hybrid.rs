@@ -12,6 +12,7 @@ use crate::measure::interacting::Interacting;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{InputsOf, Mechanism};
+use crate::nonsmooth::described::Limited;
 use crate::nonsmooth::interaction::Interaction;
 #[cfg(feature = "std")]
 use crate::run::checkpoint::{Checkpoint, keeper::Keeping};
@@ -213,8 +214,8 @@ where
     ///
     /// # Errors of the run
     /// [`Fault::Setting`] of zero steps. [`Fault::Checkpoint`] with a method of your own that does
-    /// not hand over what it remembers, and with interactions. The fault that the closure returns.
-    /// [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
+    /// not hand over what it remembers. The fault that the closure returns. [`Fault::NotVerified`] of
+    /// a run that is to be [`Simulation::verified`].
     #[cfg(feature = "std")]
     #[must_use]
     pub fn checkpoints<K, R>(
@@ -330,7 +331,6 @@ where
     /// - [`Fault::StepTooShort`] where the turns of an angle with limits cannot be followed.
     /// - [`Fault::NoInteractions`] with [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     /// - [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
-    /// - [`Fault::Checkpoint`] of a run that keeps checkpoints, or goes on from one.
     #[must_use]
     pub fn interactions<const K: usize>(
         self,
@@ -338,6 +338,47 @@ where
     ) -> WithInteractions<'a, S, M, F, I, A, C, K> {
         self.exchange(|forces| Interacting::new(forces, interactions))
             .without_events()
+    }
+
+    /// Heeds the limits of the description, `#[joint(.., limits = [-1.0, 1.0])]`: they are its
+    /// [`Simulation::interactions`], in the order of the fields. Without this call a run passes
+    /// them. Say it where `interactions` would be said; to have both, see [`Limited::limits`].
+    ///
+    /// ```
+    /// use holonom::prelude::*;
+    ///
+    /// /// A rod of 1 m, released from the horizontal.
+    /// #[derive(Mechanism)]
+    /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// struct Rod {
+    ///     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+    ///     rod: Body,
+    ///     #[joint(
+    ///         between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0],
+    ///         limits = [-1.0, 1.0], restitution = 0.4
+    ///     )]
+    ///     hinge: Revolute,
+    /// }
+    ///
+    /// let rod = Rod::default();
+    /// rod.simulation(StandardLagrange, DormandPrince::default())
+    ///     .limits()
+    ///     .run(0.0..=10.0, every(0.01), |sample| {
+    ///         assert!(sample.angle(Rod::HANDLES.hinge) > -1.0 - 1e-9);
+    ///     })?;
+    /// # Ok::<(), SimulationError<StateOf<Rod>>>(())
+    /// ```
+    ///
+    /// # Errors of the run
+    /// Those of [`Simulation::interactions`], of a start beyond a limit
+    /// [`Fault::BeyondLimit`].
+    #[must_use]
+    pub fn limits<const K: usize>(self) -> WithInteractions<'a, S, M, F, I, A, C, K>
+    where
+        M: Limited<K>,
+    {
+        let limits = M::limits_of(&self.given());
+        self.interactions(limits)
     }
 
     fn without_events(self) -> HybridSimulation<Self, NothingHappens> {

@@ -7,6 +7,7 @@ use crate::error::setting::positive;
 use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::status::Tracked;
 #[cfg(feature = "std")]
 use crate::run::checkpoint::Checkpoint;
 use crate::run::events::changes::Changes;
@@ -263,11 +264,17 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
         self
     }
 
-    /// Hands over what events and controllers remember.
-    pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>) {
-        if self.watches {
+    /// Hands over what events, controllers and interactions remember.
+    pub(crate) fn remember(&mut self, list: &[Tracked<S, M>], memory: &mut Memory<'_, S>) {
+        if self.watches || !list.is_empty() {
             memory.number(&mut self.longest);
             memory.flag(&mut self.is_fresh);
+        }
+        if !list.is_empty() {
+            self.changes.remember(memory);
+        }
+        for tracked in list {
+            tracked.remember(memory);
         }
         let _ = self.list.each(&mut |happening| {
             if let Some(watch) = happening.watch() {

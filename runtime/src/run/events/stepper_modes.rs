@@ -13,6 +13,7 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
+use crate::nonsmooth::described::Limited;
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::status::{Impact, InteractionMode, Status, Tracked};
 use crate::run::events::looked::Looked;
@@ -112,6 +113,17 @@ where
             stepper: self.exchange(exchange),
             has_begun: false,
         }
+    }
+
+    /// Heeds the limits of the description as [`Stepper::interactions`], in the order of the
+    /// fields, with the parameters that it has now.
+    #[must_use]
+    pub fn limits<const N: usize>(self) -> InteractingStepper<S, M, F, K, A, C, N>
+    where
+        M: Limited<N>,
+    {
+        let limits = M::limits_of(self.dynamics.parameters());
+        self.interactions(limits)
     }
 }
 

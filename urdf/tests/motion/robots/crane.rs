@@ -86,7 +86,7 @@ pub struct Crane {
     )]
     mast: Body,
     /// Joint `type`, continuous.
-    // Dry friction of 0.2 N m is left out: add it in a closure of forces, smoothed near rest.
+    // Dry friction of 0.2 N m is left out: a run takes it as an `Interaction::friction`.
     #[joint(
         between = [cart, mast],
         point = [0.2, -0.1, 0.8],
@@ -114,7 +114,8 @@ pub struct Crane {
     #[joint(
         between = [mast, boom],
         point = [0.31546146569710976, -0.11629880176260227, 1.9985003124739595],
-        axis = [0.8856748285101637, 0.3584216151381819, 0.2951508833549871]
+        axis = [0.8856748285101637, 0.3584216151381819, 0.2951508833549871],
+        limits = [0.0, 1.5]
     )]
     boom_joint: Prismatic,
     /// Effort of `boom` (N), on `boom`.
@@ -143,7 +144,8 @@ pub struct Crane {
     #[joint(
         between = [boom, tip],
         point = [1.0998888809931624, 0.19832771094329532, 2.3118432358573986],
-        axis = [0.8856748285101637, 0.3584216151381819, 0.2951508833549871]
+        axis = [0.8856748285101637, 0.3584216151381819, 0.2951508833549871],
+        limits = [0.0, 1.0]
     )]
     tip_joint: Prismatic,
     /// `tip` mimics `boom`: its position is 0.8 times that of the other.
@@ -177,7 +179,8 @@ pub struct Crane {
     #[joint(
         between = [load, flag],
         point = [1.6655487229802477, 0.48110990353207206, 2.303894983355771],
-        axis = [0.7144001041052278, 0.019775497608844173, 1.2203447959280862]
+        axis = [0.7144001041052278, 0.019775497608844173, 1.2203447959280862],
+        limits = [-1.0, 1.0]
     )]
     flag_joint: Revolute,
     /// Effort of `flag` (N m), on `flag`.
@@ -201,7 +204,8 @@ pub struct Crane {
     #[joint(
         between = [boom, drum],
         point = [0.378669087821937, -0.09636252208571633, 2.1234296575373595],
-        axis = [-0.38893167078334084, 0.919909907600028, 0.04997916927067833]
+        axis = [-0.38893167078334084, 0.919909907600028, 0.04997916927067833],
+        limits = [-9.0, 9.0]
     )]
     drum_joint: Revolute,
     /// `drum` mimics `boom`: its position is 4.0 times that of the other.
@@ -239,7 +243,8 @@ pub struct Crane {
 }
 
 /// What the file says of its joints, in the order of the fields; of a slide m and N in the place of
-/// rad and N m. Nothing holds a joint within its limits.
+/// rad and N m. A run with `.limits()` holds joints within their positions; nothing holds rates and
+/// efforts.
 #[allow(dead_code, clippy::approx_constant)]
 impl Crane {
     /// Names in the file.

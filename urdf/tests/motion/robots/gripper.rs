@@ -48,7 +48,12 @@ pub struct Gripper {
     #[body(mass = 0.05, inertia = [1e-5, 1e-5, 2e-6], position = [0.0, 0.03, 0.02])]
     left: Body,
     /// Joint `left`, revolute: from -1 to 1 rad, at most 5 rad/s, at most 2 N m.
-    #[joint(between = [ground, left], point = [0.0, 0.03, 0.0], axis = [1.0, 0.0, 0.0])]
+    #[joint(
+        between = [ground, left],
+        point = [0.0, 0.03, 0.0],
+        axis = [1.0, 0.0, 0.0],
+        limits = [-1.0, 1.0]
+    )]
     left_joint: Revolute,
     /// Effort of `left` (N m), on `left`.
     #[input]
@@ -59,7 +64,12 @@ pub struct Gripper {
     #[body(mass = 0.02, inertia = [2e-6, 2e-6, 1e-6], position = [0.0, 0.03, 0.05])]
     tip: Body,
     /// Joint `tip`, revolute: from -1 to 1 rad, at most 5 rad/s, at most 2 N m.
-    #[joint(between = [left, tip], point = [0.0, 0.03, 0.04], axis = [1.0, 0.0, 0.0])]
+    #[joint(
+        between = [left, tip],
+        point = [0.0, 0.03, 0.04],
+        axis = [1.0, 0.0, 0.0],
+        limits = [-1.0, 1.0]
+    )]
     tip_joint: Revolute,
     /// `tip` mimics `left`: its position is 0.5 times that of the other, plus -0.1.
     #[joint(
@@ -74,7 +84,12 @@ pub struct Gripper {
     #[body(mass = 0.05, inertia = [1e-5, 1e-5, 2e-6], position = [0.0, -0.03, 0.02])]
     right: Body,
     /// Joint `right`, revolute: from -1 to 1 rad, at most 5 rad/s, at most 2 N m.
-    #[joint(between = [ground, right], point = [0.0, -0.03, 0.0], axis = [1.0, 0.0, 0.0])]
+    #[joint(
+        between = [ground, right],
+        point = [0.0, -0.03, 0.0],
+        axis = [1.0, 0.0, 0.0],
+        limits = [-1.0, 1.0]
+    )]
     right_joint: Revolute,
     /// `right` mimics `left`: its position is -1.0 times that of the other, plus 0.3.
     #[joint(
@@ -88,7 +103,8 @@ pub struct Gripper {
 }
 
 /// What the file says of its joints, in the order of the fields; of a slide m and N in the place of
-/// rad and N m. Nothing holds a joint within its limits.
+/// rad and N m. A run with `.limits()` holds joints within their positions; nothing holds rates and
+/// efforts.
 #[allow(dead_code, clippy::approx_constant)]
 impl Gripper {
     /// Names in the file.

@@ -54,7 +54,12 @@ pub struct Panda {
     panda_link1: Body,
     /// Joint `panda_joint1`, revolute: from -2.8973 to 2.8973 rad, at most 2.175 rad/s, at most 87
     /// N m.
-    #[joint(between = [ground, panda_link1], point = [0.0, 0.0, 0.333], axis = [0.0, 0.0, 1.0])]
+    #[joint(
+        between = [ground, panda_link1],
+        point = [0.0, 0.0, 0.333],
+        axis = [0.0, 0.0, 1.0],
+        limits = [-2.8973, 2.8973]
+    )]
     panda_joint1: Revolute,
     /// Effort of `panda_joint1` (N m), on `panda_link1`.
     #[input]
@@ -83,7 +88,8 @@ pub struct Panda {
     #[joint(
         between = [panda_link1, panda_link2],
         point = [0.0, 0.0, 0.333],
-        axis = [0.0, 1.0, 0.0]
+        axis = [0.0, 1.0, 0.0],
+        limits = [-1.7628, 1.7628]
     )]
     panda_joint2: Revolute,
     /// Effort of `panda_joint2` (N m), on `panda_link2`.
@@ -112,7 +118,8 @@ pub struct Panda {
     #[joint(
         between = [panda_link2, panda_link3],
         point = [0.0, 0.0, 0.649],
-        axis = [0.0, 0.0, 1.0]
+        axis = [0.0, 0.0, 1.0],
+        limits = [-2.8973, 2.8973]
     )]
     panda_joint3: Revolute,
     /// Effort of `panda_joint3` (N m), on `panda_link3`.
@@ -142,7 +149,8 @@ pub struct Panda {
     #[joint(
         between = [panda_link3, panda_link4],
         point = [0.0825, 0.0, 0.649],
-        axis = [0.0, -1.0, 0.0]
+        axis = [0.0, -1.0, 0.0],
+        limits = [-3.0718, -0.0698]
     )]
     panda_joint4: Revolute,
     /// Effort of `panda_joint4` (N m), on `panda_link4`.
@@ -171,7 +179,8 @@ pub struct Panda {
     #[joint(
         between = [panda_link4, panda_link5],
         point = [0.0, 0.0, 1.033],
-        axis = [0.0, 0.0, 1.0]
+        axis = [0.0, 0.0, 1.0],
+        limits = [-2.8973, 2.8973]
     )]
     panda_joint5: Revolute,
     /// Effort of `panda_joint5` (N m), on `panda_link5`.
@@ -201,7 +210,8 @@ pub struct Panda {
     #[joint(
         between = [panda_link5, panda_link6],
         point = [0.0, 0.0, 1.033],
-        axis = [0.0, -1.0, 0.0]
+        axis = [0.0, -1.0, 0.0],
+        limits = [-0.0175, 3.7525]
     )]
     panda_joint6: Revolute,
     /// Effort of `panda_joint6` (N m), on `panda_link6`.
@@ -241,7 +251,8 @@ pub struct Panda {
     #[joint(
         between = [panda_link6, panda_link7],
         point = [0.088, 0.0, 1.033],
-        axis = [0.0, 0.0, -1.0]
+        axis = [0.0, 0.0, -1.0],
+        limits = [-2.8973, 2.8973]
     )]
     panda_joint7: Revolute,
     /// Effort of `panda_joint7` (N m), on `panda_link7`.
@@ -266,7 +277,8 @@ pub struct Panda {
     #[joint(
         between = [panda_link7, panda_leftfinger],
         point = [0.088, 0.0, 0.8675999999999999],
-        axis = [0.7071067811865475, -0.7071067811865476, 0.0]
+        axis = [0.7071067811865475, -0.7071067811865476, 0.0],
+        limits = [0.0, 0.04]
     )]
     panda_finger_joint1: Prismatic,
     /// Effort of `panda_finger_joint1` (N), on `panda_leftfinger`.
@@ -292,7 +304,8 @@ pub struct Panda {
     #[joint(
         between = [panda_link7, panda_rightfinger],
         point = [0.088, 0.0, 0.8675999999999999],
-        axis = [-0.7071067811865475, 0.7071067811865476, 0.0]
+        axis = [-0.7071067811865475, 0.7071067811865476, 0.0],
+        limits = [0.0, 0.04]
     )]
     panda_finger_joint2: Prismatic,
     #[force(
@@ -316,7 +329,8 @@ pub struct Panda {
 }
 
 /// What the file says of its joints, in the order of the fields; of a slide m and N in the place of
-/// rad and N m. Nothing holds a joint within its limits.
+/// rad and N m. A run with `.limits()` holds joints within their positions; nothing holds rates and
+/// efforts.
 #[allow(dead_code, clippy::approx_constant)]
 impl Panda {
     /// Names in the file.

@@ -25,7 +25,8 @@ pub struct SoArm100 {
     #[joint(
         between = [ground, shoulder],
         point = [0.0, -0.0452, 0.0165],
-        axis = [0.0, 6.326794896668469e-6, 0.9999999999799858]
+        axis = [0.0, 6.326794896668469e-6, 0.9999999999799858],
+        limits = [-2.0, 2.0]
     )]
     shoulder_pan: Revolute,
     /// Effort of `shoulder_pan` (N m), on `shoulder`.
@@ -50,7 +51,8 @@ pub struct SoArm100 {
     #[joint(
         between = [shoulder, upper_arm],
         point = [0.0, -0.07579935150291066, 0.11900019359787238],
-        axis = [1.0, 0.0, 0.0]
+        axis = [1.0, 0.0, 0.0],
+        limits = [0.0, 3.5]
     )]
     shoulder_lift: Revolute,
     /// Effort of `shoulder_lift` (N m), on `upper_arm`.
@@ -71,7 +73,8 @@ pub struct SoArm100 {
     #[joint(
         between = [upper_arm, lower_arm],
         point = [0.0, 0.04018834565650026, 0.12069105363252441],
-        axis = [1.0, 0.0, 0.0]
+        axis = [1.0, 0.0, 0.0],
+        limits = [-3.14158, 0.0]
     )]
     elbow_flex: Revolute,
     /// Effort of `elbow_flex` (N m), on `lower_arm`.
@@ -92,7 +95,8 @@ pub struct SoArm100 {
     #[joint(
         between = [lower_arm, wrist],
         point = [0.0, -0.09000179694127353, 0.15640627126270726],
-        axis = [1.0, 0.0, 0.0]
+        axis = [1.0, 0.0, 0.0],
+        limits = [-2.5, 1.2]
     )]
     wrist_flex: Revolute,
     /// Effort of `wrist_flex` (N m), on `wrist`.
@@ -113,7 +117,8 @@ pub struct SoArm100 {
     #[joint(
         between = [wrist, gripper],
         point = [0.0, -0.14662961436296498, 0.1362741999818982],
-        axis = [0.0, 0.9422265793958646, 0.3349762276340942]
+        axis = [0.0, 0.9422265793958646, 0.3349762276340942],
+        limits = [-3.14158, 3.14158]
     )]
     wrist_roll: Revolute,
     /// Effort of `wrist_roll` (N m), on `gripper`.
@@ -138,7 +143,8 @@ pub struct SoArm100 {
     #[joint(
         between = [gripper, jaw],
         point = [-1.2780125691270306e-7, -0.17638646269829736, 0.14713375693104183],
-        axis = [-0.9999999998198725, 6.357977662162594e-6, -1.7883822941126954e-5]
+        axis = [-0.9999999998198725, 6.357977662162594e-6, -1.7883822941126954e-5],
+        limits = [-0.2, 2.0]
     )]
     gripper_joint: Revolute,
     /// Effort of `gripper` (N m), on `jaw`.
@@ -153,7 +159,8 @@ pub struct SoArm100 {
 }
 
 /// What the file says of its joints, in the order of the fields; of a slide m and N in the place of
-/// rad and N m. Nothing holds a joint within its limits.
+/// rad and N m. A run with `.limits()` holds joints within their positions; nothing holds rates and
+/// efforts.
 #[allow(dead_code, clippy::approx_constant)]
 impl SoArm100 {
     /// Names in the file.

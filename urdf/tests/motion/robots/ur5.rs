@@ -25,7 +25,8 @@ pub struct Ur5 {
     #[joint(
         between = [ground, shoulder_link],
         point = [0.0, 0.0, 0.089159],
-        axis = [0.0, 0.0, 1.0]
+        axis = [0.0, 0.0, 1.0],
+        limits = [-6.28318530718, 6.28318530718]
     )]
     shoulder_pan_joint: Revolute,
     /// Effort of `shoulder_pan_joint` (N m), on `shoulder_link`.
@@ -51,7 +52,8 @@ pub struct Ur5 {
     #[joint(
         between = [shoulder_link, upper_arm_link],
         point = [0.0, 0.13585, 0.089159],
-        axis = [0.0, 1.0, 0.0]
+        axis = [0.0, 1.0, 0.0],
+        limits = [-6.28318530718, 6.28318530718]
     )]
     shoulder_lift_joint: Revolute,
     /// Effort of `shoulder_lift_joint` (N m), on `upper_arm_link`.
@@ -77,7 +79,8 @@ pub struct Ur5 {
     #[joint(
         between = [upper_arm_link, forearm_link],
         point = [0.425, 0.016149999999999998, 0.08915900000208105],
-        axis = [0.0, 1.0, 0.0]
+        axis = [0.0, 1.0, 0.0],
+        limits = [-3.14159265359, 3.14159265359]
     )]
     elbow_joint: Revolute,
     /// Effort of `elbow_joint` (N m), on `forearm_link`.
@@ -103,7 +106,8 @@ pub struct Ur5 {
     #[joint(
         between = [forearm_link, wrist_1_link],
         point = [0.81725, 0.016149999999999998, 0.08915900000400173],
-        axis = [0.0, 1.0, 0.0]
+        axis = [0.0, 1.0, 0.0],
+        limits = [-6.28318530718, 6.28318530718]
     )]
     wrist_1_joint: Revolute,
     /// Effort of `wrist_1_joint` (N m), on `wrist_1_link`.
@@ -129,7 +133,8 @@ pub struct Ur5 {
     #[joint(
         between = [wrist_1_link, wrist_2_link],
         point = [0.81725, 0.10915, 0.08915900000400173],
-        axis = [9.793177720293495e-12, 0.0, -1.0]
+        axis = [9.793177720293495e-12, 0.0, -1.0],
+        limits = [-6.28318530718, 6.28318530718]
     )]
     wrist_2_joint: Revolute,
     /// Effort of `wrist_2_joint` (N m), on `wrist_2_link`.
@@ -162,7 +167,8 @@ pub struct Ur5 {
     #[joint(
         between = [wrist_2_link, wrist_3_link],
         point = [0.817250000000927, 0.10915, -0.005490999995998266],
-        axis = [0.0, 1.0, 0.0]
+        axis = [0.0, 1.0, 0.0],
+        limits = [-6.28318530718, 6.28318530718]
     )]
     wrist_3_joint: Revolute,
     /// Effort of `wrist_3_joint` (N m), on `wrist_3_link`.
@@ -177,7 +183,8 @@ pub struct Ur5 {
 }
 
 /// What the file says of its joints, in the order of the fields; of a slide m and N in the place of
-/// rad and N m. Nothing holds a joint within its limits.
+/// rad and N m. A run with `.limits()` holds joints within their positions; nothing holds rates and
+/// efforts.
 #[allow(dead_code, clippy::approx_constant)]
 impl Ur5 {
     /// Names in the file.

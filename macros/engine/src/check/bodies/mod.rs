@@ -24,6 +24,7 @@ use self::reader::Reader;
 use self::solid::Solid;
 use super::number::Numbers;
 use super::pairs::Pairs;
+use super::turning::Turn;
 use crate::diag::Faults;
 use crate::model::inertia::{IDENTITY, compose};
 use crate::model::{Body, BodyKind, Name, Number};
@@ -80,13 +81,13 @@ fn is_shaped(pairs: &Pairs<'_>) -> bool {
 }
 
 /// Euler parameters of a rotation that the macro can see, in the attribute of a field.
-pub fn rotation(
+pub(super) fn rotation(
     name: &Name,
     attribute: &str,
     expr: &Expr,
     numbers: &mut Numbers<'_>,
     faults: &mut Faults,
-) -> Option<[f64; 4]> {
+) -> Option<Turn> {
     let mut reader = Reader {
         name,
         numbers,
@@ -124,7 +125,7 @@ impl Reader<'_, '_> {
         let axes = match pairs.optional("inertia_axes", self.faults) {
             Some(axes) => {
                 self.at("inertia_axes");
-                self.turn(axes)
+                self.seen_turn("`inertia_axes`", axes)
             }
             None => Some(IDENTITY),
         };

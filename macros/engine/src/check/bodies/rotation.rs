@@ -5,9 +5,10 @@ use syn::{Expr, ExprCall, parse_quote};
 use super::formula::difference;
 use super::reader::{Reader, place_of};
 use crate::check::number::elements;
+use crate::check::turning::Turn;
 use crate::diag::{code, did_you_mean, list};
 use crate::model::Number;
-use crate::model::inertia::{IDENTITY, compose, euler_parameters};
+use crate::model::inertia::euler_parameters;
 use crate::model::number::literals;
 use crate::syntax::ungroup;
 
@@ -36,7 +37,10 @@ impl Reader<'_, '_> {
                 let parameters = self.along(call)?;
                 self.euler_parameters(&parse_quote!([#(#parameters),*]))
             }
-            Expr::Call(_) | Expr::Binary(_) => self.turn(expr).map(|p| p.map(Number::Literal)),
+            Expr::Call(_) | Expr::Binary(_) => {
+                let turn = self.turn(expr)?;
+                Some(self.numbers.parameters(&turn))
+            }
             _ if elements(expr).is_some() => self.euler_parameters(expr),
             _ => {
                 self.faults.at(
@@ -70,21 +74,17 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// Unit Euler parameters of a rotation that the macro can see.
-    pub(super) fn turn(&mut self, expr: &Expr) -> Option<[f64; 4]> {
+    /// Unit Euler parameters of a rotation. Its angles may be parameters and constants by path.
+    pub(super) fn turn(&mut self, expr: &Expr) -> Option<Turn> {
         match ungroup(expr) {
             Expr::Binary(binary) if matches!(binary.op, syn::BinOp::Mul(_)) => {
                 let (left, right) = (self.turn(&binary.left), self.turn(&binary.right));
-                Some(compose(left?, right?))
+                Some(self.numbers.composed(&left?, &right?))
             }
             Expr::Call(call) => self.called(call),
             _ if elements(expr).is_some() => {
                 let p = self.euler_parameters(expr)?;
-                let seen = literals(&p);
-                if seen.is_none() {
-                    self.unseen(expr);
-                }
-                seen
+                self.unit(expr, p)
             }
             _ => {
                 let forms = FORMS.map(|(name, _)| name);
@@ -100,7 +100,28 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn called(&mut self, call: &ExprCall) -> Option<[f64; 4]> {
+    /// A rotation that the macro can see; `what` says what takes no other.
+    pub(super) fn seen_turn(&mut self, what: &str, expr: &Expr) -> Option<[f64; 4]> {
+        let seen = self.turn(expr)?.seen();
+        if seen.is_none() {
+            let message = format!(
+                "{what} needs numbers that the macro can see: literals, their arithmetic, `PI` and `TAU`"
+            );
+            self.faults.at(expr, message);
+        }
+        seen
+    }
+
+    /// Euler parameters whose length the macro can see to be 1.
+    fn unit(&mut self, at: impl quote::ToTokens, p: [Number; 4]) -> Option<Turn> {
+        let seen = literals(&p);
+        if seen.is_none() {
+            self.unseen(at);
+        }
+        seen.map(Turn::Seen)
+    }
+
+    fn called(&mut self, call: &ExprCall) -> Option<Turn> {
         let found = code(&call.func);
         let Some((name, example)) = FORMS.iter().find(|(name, _)| is_call(call, name)) else {
             let known = FORMS.map(|(name, _)| name);
@@ -114,18 +135,14 @@ impl Reader<'_, '_> {
         let arguments: Vec<&Expr> = call.args.iter().collect();
         match (*name, &arguments[..]) {
             ("rotation", [axis, angle]) => self.about(call, axis, angle),
-            ("rpy", [roll, pitch, yaw]) => self.angles(call, [(2, yaw), (1, pitch), (0, roll)]),
-            ("euler_zxz", [a, b, c]) => self.angles(call, [(2, a), (0, b), (2, c)]),
-            ("bryant_xyz", [a, b, c]) => self.angles(call, [(0, a), (1, b), (2, c)]),
+            ("rpy", [roll, pitch, yaw]) => self.angles([(2, yaw), (1, pitch), (0, roll)]),
+            ("euler_zxz", [a, b, c]) => self.angles([(2, a), (0, b), (2, c)]),
+            ("bryant_xyz", [a, b, c]) => self.angles([(0, a), (1, b), (2, c)]),
             ("axes", [_, _]) => self.axes(call),
             ("along", [_, _, _]) => {
                 let parameters = self.along(call)?;
                 let p = self.euler_parameters(&parse_quote!([#(#parameters),*]))?;
-                let seen = literals(&p);
-                if seen.is_none() {
-                    self.unseen(call);
-                }
-                seen
+                self.unit(call, p)
             }
             _ => {
                 self.faults
@@ -138,16 +155,16 @@ impl Reader<'_, '_> {
     fn unseen(&mut self, at: impl quote::ToTokens) {
         self.faults.at(
             at,
-            "a rotation needs numbers that the macro can see: literals, their arithmetic, `PI` and `TAU`; parameters and constants may be in an \
-             `orientation` of four Euler parameters or by `along`, and in `at` of a part",
+            "here the macro has to see the numbers: literals, their arithmetic, `PI` and `TAU`; parameters and constants may be the angles of \
+             `rotation`, `rpy`, `euler_zxz` and `bryant_xyz`",
         );
     }
 
-    fn about(&mut self, call: &ExprCall, axis: &Expr, angle: &Expr) -> Option<[f64; 4]> {
+    fn about(&mut self, call: &ExprCall, axis: &Expr, angle: &Expr) -> Option<Turn> {
         let vector = self.numbers.vector(axis, self.faults);
-        let size = self.numbers.scalar(angle, self.faults);
-        let (vector, size) = (vector?, size?);
-        let (Some(vector), Some(size)) = (literals(&vector), size.literal()) else {
+        let half = self.half(angle);
+        let (vector, [cosine, sine]) = (vector?, half?);
+        let Some(vector) = literals(&vector) else {
             self.unseen(call);
             return None;
         };
@@ -157,30 +174,46 @@ impl Reader<'_, '_> {
                 .at(axis, "the axis of a rotation must not be the zero vector");
             return None;
         }
-        let (sine, cosine) = (0.5 * size).sin_cos();
-        let [x, y, z] = vector.map(|component| sine * component / length);
-        Some([cosine, x, y, z])
+        if let (Some(cosine), Some(sine)) = (cosine.literal(), sine.literal()) {
+            let [x, y, z] = vector.map(|component| sine * component / length);
+            return Some(Turn::Seen([cosine, x, y, z]));
+        }
+        let along = vector.map(|component| component / length);
+        let [x, y, z] =
+            along.map(|component| self.numbers.linear([component], [sine], Number::ZERO));
+        Some(self.numbers.turn([cosine, x, y, z]))
+    }
+
+    /// The cosine and the sine of half an angle.
+    fn half(&mut self, angle: &Expr) -> Option<[Number; 2]> {
+        if let Some(size) = self.numbers.scalar(angle, self.faults)?.literal() {
+            let (sine, cosine) = (0.5 * size).sin_cos();
+            return Some([cosine, sine].map(Number::Literal));
+        }
+        let [cosine, sine]: [Expr; 2] = [
+            parse_quote!(cos(0.5 * (#angle))),
+            parse_quote!(sin(0.5 * (#angle))),
+        ];
+        let cosine = self.numbers.scalar(&cosine, self.faults);
+        let sine = self.numbers.scalar(&sine, self.faults);
+        Some([cosine?, sine?])
     }
 
     /// Turns about axes, of which the first written turns last.
-    fn angles(&mut self, call: &ExprCall, turns: [(usize, &Expr); 3]) -> Option<[f64; 4]> {
-        let sizes = turns.map(|(_, angle)| self.numbers.scalar(angle, self.faults));
-        let mut whole = IDENTITY;
-        for ((axis, _), size) in turns.into_iter().zip(sizes) {
-            let Some(size) = size?.literal() else {
-                self.unseen(call);
-                return None;
-            };
-            let (sine, cosine) = (0.5 * size).sin_cos();
-            let mut turn = [cosine, 0.0, 0.0, 0.0];
+    fn angles(&mut self, turns: [(usize, &Expr); 3]) -> Option<Turn> {
+        let halves = turns.map(|(_, angle)| self.half(angle));
+        let mut whole = Turn::NONE;
+        for ((axis, _), half) in turns.into_iter().zip(halves) {
+            let [cosine, sine] = half?;
+            let mut turn = [cosine, Number::ZERO, Number::ZERO, Number::ZERO];
             turn[axis + 1] = sine;
-            whole = compose(whole, turn);
+            whole = self.numbers.composed(&whole, &self.numbers.turn(turn));
         }
         Some(whole)
     }
 
     /// `axes(x = .., y = ..)`: two body axes in global axes.
-    fn axes(&mut self, call: &ExprCall) -> Option<[f64; 4]> {
+    fn axes(&mut self, call: &ExprCall) -> Option<Turn> {
         let mut columns: [Option<[f64; 3]>; 3] = [None; 3];
         for argument in &call.args {
             let (axis, given) = self.assigned(argument)?;
@@ -211,9 +244,8 @@ impl Reader<'_, '_> {
         }
         columns[third] = Some(cross(a, b));
         let columns = [columns[0]?, columns[1]?, columns[2]?];
-        Some(euler_parameters(
-            [0, 1, 2].map(|row| columns.map(|column| column[row])),
-        ))
+        let rows = [0, 1, 2].map(|row| columns.map(|column| column[row]));
+        Some(Turn::Seen(euler_parameters(rows)))
     }
 
     /// `x = [..]`.

@@ -303,7 +303,7 @@ impl Reader<'_, '_> {
         let axes = match orientation {
             Some(orientation) => {
                 self.at("orientation");
-                self.turn(orientation)?
+                self.seen_turn("the `orientation` of several shapes", orientation)?
             }
             None => IDENTITY,
         };

@@ -68,7 +68,7 @@ struct Turns {
     angle: f64,
     #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], orientation = rpy(0.1, 0.2), free)]
     short: Body,
-    #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], orientation = rpy(0.1, 0.2, angle), free)]
+    #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], orientation = rotation([0.0, 1.0, angle], 0.2), free)]
     unseen: Body,
     #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], orientation = axes(x = [1.0, 0.0, 0.0], y = [1.0, 1.0, 0.0]), free)]
     oblique: Body,
@@ -82,6 +82,8 @@ struct Turns {
     product: Body,
     #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], inertia_axes = 90.0, free)]
     number: Body,
+    #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], inertia_axes = rpy(0.1, 0.2, angle), free)]
+    turned: Body,
 }
 
 fn main() {}

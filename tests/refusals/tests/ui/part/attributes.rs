@@ -38,8 +38,8 @@ struct Robot {
     // A mirror is an axis.
     #[part(hull = hull, mirror = left)]
     third: Leg,
-    // A rotation that the macro cannot see, and a point of two numbers.
-    #[part(hull = hull, rotation = rotation([1.0, 0.0, 0.0], angle), at = [0.0, 0.5])]
+    // An axis that the macro cannot see, and a point of two numbers.
+    #[part(hull = hull, rotation = rotation([1.0, 0.0, angle], 0.5), at = [0.0, 0.5])]
     fourth: Leg,
     // The mirror image of a screw has another hand.
     #[part(base = hull, mirror = y)]

@@ -1,0 +1,324 @@
+//! Limits in the description, for runs that heed them.
+
+use core::f64::consts::{PI, TAU};
+
+use holonom::mechanism::{Absolute, Coordinates, Relative};
+use holonom::prelude::*;
+use holonom::run::InteractionMode;
+
+use super::{GRAVITY, tight};
+
+/// A ball of 1 kg on a vertical rail between a floor and a lid, which are parameters. It is thrown
+/// upwards at 3 m/s.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+struct Shaft {
+    #[param]
+    floor: f64,
+    #[param]
+    height: f64,
+    #[param]
+    bounce: f64,
+    #[body(
+        mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 1.0], velocity = [0.0, 0.0, 3.0]
+    )]
+    ball: Body,
+    #[joint(
+        between = [ground, ball], point = [0.0, 0.0, 1.0], axis = [0.0, 0.0, 1.0],
+        limits = [floor, floor + height], restitution = bounce
+    )]
+    rail: Prismatic,
+}
+
+/// Floor, height and restitution.
+const NUMBERS: [f64; 3] = [-0.5, 0.75, 0.8];
+
+fn shaft() -> Shaft {
+    let [floor, height, bounce] = NUMBERS;
+    Shaft::new(floor, height, bounce).expect("acceptable")
+}
+
+/// The displacement until the ball meets the lid or the floor a second time: it meets the lid first,
+/// if that is low enough, and then the floor.
+fn bounced(time: f64, [floor, height, bounce]: [f64; 3]) -> f64 {
+    let thrown =
+        |from: f64, rate: f64, since: f64| from + rate * since - 0.5 * GRAVITY * since * since;
+    let (mut start, mut rate, mut since) = (0.0, 3.0, time);
+    let lid = floor + height;
+    let left = rate * rate - 2.0 * GRAVITY * lid;
+    if left > 0.0 {
+        let meets = (rate - left.sqrt()) / GRAVITY;
+        if since < meets {
+            return thrown(start, rate, since);
+        }
+        (start, rate, since) = (lid, -bounce * left.sqrt(), since - meets);
+    }
+    let fast = (rate * rate + 2.0 * GRAVITY * (start - floor)).sqrt();
+    let falls = (rate + fast) / GRAVITY;
+    if since < falls {
+        return thrown(start, rate, since);
+    }
+    thrown(floor, bounce * fast, since - falls)
+}
+
+fn parameters_are_limits<C: Coordinates<Shaft>>() {
+    let h = Shaft::HANDLES;
+    for numbers in [NUMBERS, [-0.2, 1.0, 0.5]] {
+        let [floor, height, bounce] = numbers;
+        let shaft = Shaft::new(floor, height, bounce).expect("acceptable");
+        let mut shown = 0;
+        Simulation::new(&shaft, StandardLagrange, DormandPrince::new(tight()))
+            .coordinates::<C>()
+            .limits()
+            .run(0.0..=0.8, every(0.01), |sample| {
+                let (found, wanted) =
+                    (sample.displacement(h.rail), bounced(sample.time(), numbers));
+                assert!((found - wanted).abs() < 1e-11, "{found} {wanted}");
+                shown += 1;
+            })
+            .expect("it bounces");
+        assert!(shown > 80);
+    }
+}
+
+#[test]
+fn limits_may_be_parameters() {
+    parameters_are_limits::<Relative>();
+    parameters_are_limits::<Absolute>();
+}
+
+#[test]
+fn limits_of_the_description_are_interactions() {
+    let (shaft, h) = (shaft(), Shaft::HANDLES);
+    let simulation = || shaft.simulation(StandardLagrange, Rk4::every(0.003));
+    let rail = Interaction::limits(h.rail.displacement(), [-0.5, 0.25]).restitution(0.8);
+    let run = |interactions| {
+        let mut simulation = simulation().interactions(interactions);
+        simulation.run(0.0..=3.0, every(0.1), |_| ())
+    };
+    let wanted = run([rail]).expect("it bounces");
+    let found = simulation()
+        .limits()
+        .run(0.0..=3.0, every(0.1), |_| ())
+        .expect("it bounces");
+    assert_eq!(found, wanted);
+    let [own] = shaft.limits();
+    let friction = Interaction::friction(h.rail.displacement(), 3.0);
+    let mut both = simulation().interactions([own, friction]);
+    let slower = both
+        .run(0.0..=3.0, every(0.1), |_| ())
+        .expect("it bounces and rubs");
+    assert_ne!(slower.state, wanted.state);
+    // Without the call nothing holds it.
+    let fallen = simulation()
+        .run(0.0..=3.0, every(0.1), |_| ())
+        .expect("it falls");
+    let view = shaft.view(3.0, &fallen.state).expect("acceptable");
+    assert!(view.displacement(h.rail) < -30.0);
+}
+
+#[test]
+fn a_stepper_heeds_them() {
+    let (shaft, h) = (shaft(), Shaft::HANDLES);
+    let mut stepper = Stepper::<f64, _, _, _>::new(&shaft, StandardLagrange, Rk4)
+        .expect("acceptable")
+        .limits();
+    let mut state = stepper.initial_state().expect("it is described");
+    for number in 1..=800_u32 {
+        stepper.step(&mut state, 1e-3).expect("it bounces");
+        let bodies = stepper.bodies(&state);
+        let found = stepper.view(&bodies).displacement(h.rail);
+        let wanted = bounced(f64::from(number) * 1e-3, NUMBERS);
+        assert!((found - wanted).abs() < 1e-11, "{found} {wanted}");
+    }
+}
+
+#[test]
+fn what_a_run_refuses_is_named() {
+    let beyond = Shaft::new(0.5, 1.0, 0.8).expect("finite");
+    let run = |shaft: &Shaft| {
+        let mut limited = shaft
+            .simulation(StandardLagrange, Rk4::every(0.01))
+            .limits();
+        let run = limited.run(0.0..=1.0, every(0.1), |_| ());
+        run.expect_err("it is refused").fault
+    };
+    let fault = run(&beyond);
+    let is_told = matches!(
+        fault,
+        Fault::BeyondLimit {
+            joint: "rail",
+            limit: 0.5,
+            ..
+        }
+    );
+    assert!(is_told, "{fault}");
+    let unordered = Shaft::new(-1.0, -1.0, 0.8).expect("finite");
+    let fault = run(&unordered);
+    let setting = "lower limit";
+    let is_told = matches!(fault, Fault::InteractionSetting { joint: "rail", setting: s, .. } if s == setting);
+    assert!(is_told, "{fault}");
+    let lively = Shaft::new(-1.0, 2.0, 1.2).expect("finite");
+    let is_told = |fault| matches!(fault, Fault::InteractionSetting { joint: "rail", setting, .. } if setting == "restitution");
+    assert!(is_told(run(&lively)));
+    assert!(Shaft::new(f64::NAN, 1.0, 0.8).is_err());
+    let mut spoiled = shaft();
+    spoiled.floor = f64::INFINITY;
+    assert!(matches!(run(&spoiled), Fault::Parameter(_)));
+}
+
+/// A nut of 2 kg that falls along a screw of 0.1 m a turn, to two turns below.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+struct Nut {
+    #[body(mass = 2.0, inertia = [0.01, 0.01, 0.02])]
+    nut: Body,
+    #[joint(
+        between = [ground, nut], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0], pitch = 0.1,
+        limits = [-2.0 * TAU, TAU], restitution = 0.5
+    )]
+    thread: Screw,
+}
+
+fn a_screw_stops_by_its_angle<C: Coordinates<Nut>>() {
+    let (nut, h) = (Nut::default(), Nut::HANDLES);
+    let lead = 0.1 / TAU;
+    let acceleration = 2.0 * GRAVITY * lead / (2.0 * lead * lead + 0.02);
+    let wanted = (2.0 * 2.0 * TAU / acceleration).sqrt();
+    let mut first = None;
+    Simulation::new(&nut, StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .limits()
+        .run(0.0..=4.0, every(0.05), |sample| {
+            if let Some(impact) = sample.impact(0).expect("one") {
+                first.get_or_insert(impact);
+            }
+            let height = sample.displacement(h.thread);
+            assert!(height > -0.2 - 1e-10, "{height}");
+        })
+        .expect("it falls");
+    let first = first.expect("it arrives");
+    assert!((first.time - wanted).abs() < 1e-9, "{first:?} {wanted}");
+    let [before, after] = first.rates;
+    assert!((before + acceleration * wanted).abs() < 1e-8, "{first:?}");
+    assert!((after + 0.5 * before).abs() < 1e-10 * before.abs());
+}
+
+#[test]
+fn the_limits_of_a_screw_are_angles() {
+    a_screw_stops_by_its_angle::<Relative>();
+    a_screw_stops_by_its_angle::<Absolute>();
+}
+
+/// A chain that hangs down from hinges that turn less and less far.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+struct Chain {
+    #[body(mass = 1.0, inertia = [0.1, 0.01, 0.1], position = [0.0, 0.5 + k, 0.0])]
+    links: [Body; 3],
+    #[joint(between = [ground, links[0]], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    root: Revolute,
+    #[joint(
+        between = [links[k], links[k + 1]], point = [0.0, 1.0 + k, 0.0], axis = [1.0, 0.0, 0.0],
+        limits = [-0.2 / (1.0 + k), 0.1]
+    )]
+    hinges: [Revolute; 2],
+}
+
+#[test]
+fn elements_of_arrays_have_limits_of_their_own() {
+    let (chain, h) = (Chain::default(), Chain::HANDLES);
+    let mut least = [0.0_f64; 2];
+    let report = chain
+        .simulation(StandardLagrange, DormandPrince::default())
+        .limits()
+        .run(0.0..=1.5, every(0.01), |sample| {
+            for (least, hinge) in least.iter_mut().zip(h.hinges) {
+                *least = least.min(sample.angle(hinge));
+            }
+            assert!(sample.mode(1).is_ok() && sample.mode(2).is_err());
+        })
+        .expect("it swings");
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
+    for (least, bound) in least.into_iter().zip([-0.2, -0.1]) {
+        assert!((least - bound).abs() < 1e-9, "{least} {bound}");
+    }
+}
+
+/// A wing on a hinge, which falls to its stop.
+#[derive(Assembly, Clone, Copy)]
+struct Wing {
+    #[port]
+    hull: Body,
+    #[param]
+    droop: f64,
+    #[body(mass = 1.0, inertia = [0.1, 0.01, 0.1], position = [0.0, 0.5, 0.0])]
+    plate: Body,
+    #[joint(
+        between = [hull, plate], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0],
+        limits = [-droop, 0.5]
+    )]
+    hinge: Revolute,
+}
+
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+struct Bird {
+    #[part(hull = ground)]
+    left: Wing,
+    #[part(hull = ground, mirror = y)]
+    right: Wing,
+}
+
+#[test]
+fn parts_and_their_mirror_images_have_limits() {
+    let bird = Bird::new(Wing::new(0.7), Wing::new(0.3)).expect("acceptable");
+    let h = Bird::HANDLES;
+    let mut last = [0.0; 2];
+    bird.simulation(StandardLagrange, DormandPrince::default())
+        .limits()
+        .run(0.0..=2.0, every(0.1), |sample| {
+            last = [h.left.hinge, h.right.hinge].map(|hinge| sample.angle(hinge));
+            let modes = [0, 1].map(|number| sample.mode(number).expect("two"));
+            let is_still = modes == [InteractionMode::AtLower; 2];
+            assert!(is_still || sample.time() < 1.0, "{modes:?}");
+        })
+        .expect("it droops");
+    assert!((last[0] + 0.7).abs() < 1e-12, "{last:?}");
+    assert!((last[1] + 0.3).abs() < 1e-12, "{last:?}");
+}
+
+/// Numbers that are laid down elsewhere.
+mod drawing {
+    pub(super) const STOPS: [f64; 2] = [-core::f64::consts::PI, 0.25];
+}
+
+#[derive(Mechanism)]
+#[mechanism(coordinates = "joints")]
+struct Wheel {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.2], angular_velocity = [0.0, 0.0, -2.0])]
+    wheel: Body,
+    #[joint(
+        between = [ground, wheel], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0],
+        limits = [drawing::STOPS[0], drawing::STOPS[1]], restitution = 1.0
+    )]
+    hinge: Revolute,
+}
+
+#[test]
+fn limits_may_be_constants() {
+    let (wheel, h) = (Wheel::default(), Wheel::HANDLES);
+    wheel
+        .simulation(StandardLagrange, DormandPrince::default())
+        .limits()
+        .run(0.0..=20.0, every(0.1), |sample| {
+            // To and fro at 2 rad/s.
+            let (way, span) = (2.0 * sample.time(), PI + 0.25);
+            let phase = (way + 0.25).rem_euclid(2.0 * span);
+            let wanted = 0.25 - phase.min(2.0 * span - phase);
+            let found = sample.angle(h.hinge);
+            let off = (found - wanted + PI).rem_euclid(TAU) - PI;
+            assert!(off.abs() < 1e-9, "{found} {wanted}");
+        })
+        .expect("it turns");
+}

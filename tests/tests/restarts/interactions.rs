@@ -1,0 +1,297 @@
+//! Limits, dry friction, clutches and dogs in a run that goes on.
+
+use std::cell::{Cell, RefCell};
+
+use holonom::error::Fault as RunFault;
+use holonom::measure::{Interacting, NoForces};
+use holonom::mechanism::{Absolute, Coordinates, Relative};
+use holonom::prelude::*;
+use holonom::run::{Checkpoint, Impact, InteractionMode, Plane};
+use holonom::{Adams, AdamsBashforthMoulton4, Bdf, DormandPrince853, RadauIIA, Runs};
+use holonom_tests::IS_EXHAUSTIVE;
+use serde_json::{from_str, to_string};
+
+/// A motor with its current, a drum on a bearing that rubs, and a hammer on the drum that swings
+/// between two stops. A ball falls beside them.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
+struct Mill {
+    #[input]
+    voltage: f64,
+    #[state(rate = (voltage - 2.0 * current - 0.5 * shaft.rate) / 0.05, start = 0.1)]
+    current: f64,
+    #[body(mass = 1.0, inertia = [2e-3, 2e-3, 2e-3])]
+    rotor: Body,
+    #[joint(between = [ground, rotor], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    shaft: Revolute,
+    #[force(between = [ground, rotor], axis = [1.0, 0.0, 0.0], moment = 0.5 * current)]
+    motor: TorsionalActuator,
+    #[body(mass = 2.0, inertia = [0.02, 0.02, 0.02])]
+    drum: Body,
+    #[joint(between = [ground, drum], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    bearing: Revolute,
+    #[body(mass = 0.3, inertia = [2e-3, 1e-4, 2e-3], position = [0.0, 0.3, 0.0])]
+    hammer: Body,
+    #[joint(
+        between = [drum, hammer], point = [0.0, 0.2, 0.0], axis = [1.0, 0.0, 0.0],
+        limits = [-0.6, 0.4], restitution = 0.6
+    )]
+    pin: Revolute,
+    #[body(mass = 0.1, inertia = [1e-4, 1e-4, 1e-4], position = [0.0, 2.0, 0.3])]
+    ball: Body,
+    #[joint(between = [ground, ball], point = [0.0, 2.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    rail: Prismatic,
+}
+
+const INTERACTIONS: usize = 5;
+
+type Forces = Interacting<f64, Mill, NoForces, INTERACTIONS>;
+
+/// What an observer was shown of all interactions.
+type Told = [(InteractionMode, f64, Option<Impact<f64>>); INTERACTIONS];
+
+/// What it was shown.
+type Shown = Vec<(f64, StateOf<Mill>, Told)>;
+
+/// A checkpoint, what the controller remembered and how often the observer had been called.
+type Kept = (Checkpoint<Mill>, f64, usize);
+
+fn interactions(mill: &Mill) -> [Interaction<f64, Mill>; INTERACTIONS] {
+    let h = Mill::HANDLES;
+    let [stops] = mill.limits();
+    [
+        stops,
+        Interaction::clutch(h.shaft.angle(), h.bearing.angle(), 2.0, 0.8).released(),
+        Interaction::friction(h.bearing.angle(), 0.05)
+            .stiction(0.08)
+            .stribeck(0.5),
+        Interaction::contact(h.ball, Plane::on_ground([0.0; 3], [0.0, 0.0, 1.0])).restitution(0.7),
+        Interaction::brake(h.shaft.angle(), f64::INFINITY).released(),
+    ]
+}
+
+/// A run with a controller, a handler that engages the clutch, one that lets it go, a dog that holds
+/// the shaft, and one that gives the hammer a push.
+fn run<I, C>(method: I, from: Option<&Kept>, end: f64) -> (RunReport<f64, Mill>, Shown, Vec<Kept>)
+where
+    C: Coordinates<Mill>,
+    I: Runs<f64, Mill, StandardLagrange, C, Forces>,
+{
+    let (mill, h) = (Mill::default(), Mill::HANDLES);
+    let memory = Cell::new(from.map_or(0.0, |kept| kept.1));
+    let shown = RefCell::new(Shown::new());
+    let before = from.map_or(0, |kept| kept.2);
+    let mut kept = Vec::new();
+    let mut simulation = Simulation::new(&mill, StandardLagrange, method)
+        .coordinates::<C>()
+        .interactions(interactions(&mill))
+        .every_period(0.05, |sample, inputs| {
+            memory.set(0.8 * memory.get() + 0.5 * (20.0 - sample.angle_rate(h.shaft)));
+            inputs.voltage = memory.get();
+        })
+        .on(
+            "engage",
+            Crossing::Rising,
+            |sample| sample.angle_rate(h.shaft) - 8.0,
+            |event| event.engage(1),
+        )
+        .on(
+            "let go",
+            Crossing::Rising,
+            |sample| sample.time() - 0.8,
+            |event| {
+                event.release(1)?;
+                event.engage(4)
+            },
+        )
+        .on(
+            "push",
+            Crossing::Rising,
+            |sample| sample.time() - 1.1,
+            |event| event.set_angle_rate(h.pin, 3.0),
+        )
+        .checkpoints(1, |checkpoint| {
+            let shown = before + shown.borrow().len();
+            kept.push((checkpoint.clone(), memory.get(), shown));
+        });
+    let observe = |sample: &Sample<'_, f64, Mill>| -> Result<(), RunFault> {
+        let mut told = [(InteractionMode::Free, 0.0, None); INTERACTIONS];
+        for (number, told) in told.iter_mut().enumerate() {
+            *told = (
+                sample.mode(number)?,
+                sample.effort(number)?,
+                sample.impact(number)?,
+            );
+        }
+        shown
+            .borrow_mut()
+            .push((sample.time(), *sample.state(), told));
+        Ok(())
+    };
+    let report = match from {
+        None => simulation.run(0.0..=end, every(0.03), observe),
+        Some((checkpoint, ..)) => simulation.resume(checkpoint, observe),
+    };
+    let report = report.expect("it runs");
+    (report, shown.into_inner(), kept)
+}
+
+/// All kinds of modes and impacts are met, so that all of them are kept.
+fn meets_everything(what: &str, shown: &Shown) {
+    for mode in [
+        InteractionMode::Free,
+        InteractionMode::AtLower,
+        InteractionMode::Sticking,
+        InteractionMode::SlidingUp,
+        InteractionMode::SlidingDown,
+        InteractionMode::Released,
+    ] {
+        let mut all = shown.iter().flat_map(|(.., told)| told);
+        assert!(all.any(|told| told.0 == mode), "{what}: {mode:?}");
+    }
+    for number in [0, 3, 4] {
+        let met = shown.iter().any(|(.., told)| told[number].2.is_some());
+        assert!(met, "{what}: no impact of {number}");
+    }
+}
+
+fn goes_on<I, C>(what: &str, method: I)
+where
+    C: Coordinates<Mill>,
+    I: Runs<f64, Mill, StandardLagrange, C, Forces> + Copy,
+{
+    goes_on_until::<I, C>(what, method, 1.5);
+}
+
+fn goes_on_until<I, C>(what: &str, method: I, end: f64)
+where
+    C: Coordinates<Mill>,
+    I: Runs<f64, Mill, StandardLagrange, C, Forces> + Copy,
+{
+    let (report, shown, kept) = run::<I, C>(method, None, end);
+    if end > 1.0 {
+        meets_everything(what, &shown);
+    }
+    let last = kept.len() - 1;
+    let places: Vec<usize> = if IS_EXHAUSTIVE {
+        (0..last).collect()
+    } else {
+        vec![1, last / 2, last - 1]
+    };
+    for place in places {
+        let from = &kept[place];
+        let (resumed, tail, rest) = run::<I, C>(method, Some(from), end);
+        assert_eq!(resumed, report, "{what} {place} of {last}");
+        assert!(tail == shown[from.2..], "{what} {place} of {last}");
+        // The checkpoints are those of the whole run, too.
+        assert!(rest[..] == kept[place + 1..], "{what} {place} of {last}");
+
+        if !IS_EXHAUSTIVE && place != last / 2 {
+            continue;
+        }
+        let text = to_string(&from.0).expect("finite");
+        let read = from_str(&text).expect("that of this mechanism");
+        let read = (read, from.1, from.2);
+        let (of_file, tail_of_file, _) = run::<I, C>(method, Some(&read), end);
+        assert!(tail_of_file == tail, "{what} {place}: from a file");
+        assert_eq!(of_file.evaluations, report.evaluations, "{what} {place}");
+    }
+}
+
+#[test]
+fn fixed_steps_go_on() {
+    goes_on::<_, Relative>("Rk4", Rk4::every(0.004));
+    goes_on::<_, Absolute>("Rk4", Rk4::every(0.004));
+    goes_on::<_, Relative>("Adams", AdamsBashforthMoulton4::every(0.002));
+}
+
+#[test]
+fn controlled_steps_go_on() {
+    goes_on::<_, Relative>("Dormand-Prince", DormandPrince::default());
+    goes_on::<_, Absolute>("Dormand-Prince 8", DormandPrince853::default());
+}
+
+#[test]
+fn methods_with_a_memory_go_on() {
+    goes_on::<_, Relative>("ode113", Adams::default());
+    goes_on::<_, Relative>("BDF", Bdf::default());
+    // Each look into a step of Radau is a step of its own.
+    goes_on_until::<_, Absolute>("Radau", RadauIIA::default(), 0.2);
+}
+
+/// Nothing is changed by checkpoints.
+#[test]
+fn checkpoints_change_nothing() {
+    let mill = Mill::default();
+    let simulation = || {
+        mill.simulation(StandardLagrange, DormandPrince::default())
+            .interactions(interactions(&mill))
+            .on(
+                "engage",
+                Crossing::Rising,
+                |s| s.time() - 0.1,
+                |event| event.engage(1),
+            )
+    };
+    let run = simulation().run(0.0..=1.0, every(0.1), |_| ());
+    let plain = run.map(|report| report.state);
+    let mut checkpoints = 0;
+    let kept = simulation()
+        .checkpoints(1, |_| checkpoints += 1)
+        .run(0.0..=1.0, every(0.1), |_| ())
+        .map(|report| report.state);
+    assert_eq!(plain.expect("it runs"), kept.expect("it runs"));
+    assert!(checkpoints > 10);
+}
+
+/// The last checkpoint of a run with another end is that from which a longer run goes on.
+#[test]
+fn a_run_goes_on_for_longer_than_was_planned() {
+    let method = Rk4::every(0.005);
+    let (.., kept) = run::<_, Relative>(method, None, 0.5);
+    let (whole, shown, _) = run::<_, Relative>(method, None, 1.5);
+    let (checkpoint, memory, at) = kept.last().expect("that of the end").clone();
+    let longer = (checkpoint.until(1.5), memory, at);
+    let (resumed, tail, _) = run::<_, Relative>(method, Some(&longer), 1.5);
+    assert_eq!(resumed.state, whole.state);
+    assert!(tail.len() > 20 && shown.ends_with(&tail));
+}
+
+/// Other interactions are another run, and a damaged mode is refused.
+#[test]
+fn runs_with_other_interactions_are_refused() {
+    let mill = Mill::default();
+    let method = Rk4::every(0.01);
+    let simulation = || mill.simulation(StandardLagrange, method);
+    let mut kept = None;
+    simulation()
+        .limits()
+        .checkpoints(10, |checkpoint| {
+            kept = Some(checkpoint.clone());
+            ControlFlow::Break(())
+        })
+        .run(0.0..=1.0, every(0.1), |_| ())
+        .expect("it runs");
+    let kept = kept.expect("one");
+    let wanted = "the checkpoint is of a run with other events, controllers or interactions; give the same ones, in the same order";
+    let refused = |run: RunResult<f64, Mill>| {
+        let fault = run.expect_err("another run").fault.to_string();
+        assert_eq!(fault, wanted);
+    };
+    let [stops] = mill.limits();
+    assert!(simulation().limits().resume(&kept, |_| ()).is_ok());
+    refused(simulation().resume(&kept, |_| ()));
+    for other in [
+        [stops.restitution(0.5)],
+        [Interaction::limits(Mill::HANDLES.pin.angle(), [-0.6, 0.41]).restitution(0.6)],
+        [Interaction::friction(Mill::HANDLES.pin.angle(), 1.0)],
+    ] {
+        refused(simulation().interactions(other).resume(&kept, |_| ()));
+    }
+    let friction = Interaction::friction(Mill::HANDLES.shaft.angle(), 1.0);
+    refused(
+        simulation()
+            .interactions([stops, friction])
+            .resume(&kept, |_| ()),
+    );
+}
