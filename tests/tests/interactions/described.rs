@@ -94,9 +94,10 @@ fn limits_of_the_description_are_interactions() {
     let rail = Interaction::limits(h.rail.displacement(), [-0.5, 0.25]).restitution(0.8);
     let run = |interactions| {
         let mut simulation = simulation().interactions(interactions);
-        simulation.run(0.0..=3.0, every(0.1), |_| ())
+        let report = simulation.run(0.0..=3.0, every(0.1), |_| ());
+        report.expect("it bounces")
     };
-    let wanted = run([rail]).expect("it bounces");
+    let wanted = run([rail]);
     let found = simulation()
         .limits()
         .run(0.0..=3.0, every(0.1), |_| ())
