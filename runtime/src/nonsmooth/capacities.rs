@@ -94,16 +94,12 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
     ) -> [Option<S>; K] {
         core::array::from_fn(|index| {
             let tracked = &self.list[index];
-            let status = tracked.status.get();
             tracked.friction()?;
-            match status.next {
+            match tracked.status.get().next {
                 Next::Moving(sign) => Some(sign),
                 Next::Still if problem.matrix[index][index] <= S::zero() => {
                     let acceleration = problem.offset[index];
-                    let turned = status.before.sliding::<S>().map(|sign| -sign);
-                    if status.is_found && turned.is_some() {
-                        turned
-                    } else if acceleration.abs() <= no_acceleration[index] {
+                    if acceleration.abs() <= no_acceleration[index] {
                         None
                     } else if acceleration > S::zero() {
                         Some(S::one())

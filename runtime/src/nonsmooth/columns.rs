@@ -195,7 +195,7 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, 
     }
 
     /// The velocities and multipliers of one that was chosen.
-    pub(super) fn column(&self, index: usize) -> Option<(&C::Velocities<S>, &C::Multipliers<S>)> {
+    pub(super) fn column(&self, index: usize) -> Option<ColumnOf<'_, S, M, C>> {
         let column = (&self.velocities[index], &self.multipliers[index]);
         self.chosen[index].then_some(column)
     }
@@ -230,6 +230,12 @@ fn add<S: Real>(factor: S, x: &[S], y: &mut [S]) {
 pub(super) type ByLoads<S, M, C> = (
     <C as Coordinates<M>>::Velocities<S>,
     <C as Coordinates<M>>::Multipliers<S>,
+);
+
+/// The same of a unit effort.
+type ColumnOf<'c, S, M, C> = (
+    &'c <C as Coordinates<M>>::Velocities<S>,
+    &'c <C as Coordinates<M>>::Multipliers<S>,
 );
 
 /// The solution for loads on the bodies alone.

@@ -12,8 +12,8 @@
 //! Within a step the modes are fixed (`efforts.rs`). Between steps `switch.rs` finds impulses, then
 //! `choice.rs` modes. `interaction.rs` is what a user writes, `status.rs` what a run knows of it.
 //!
-//! Friction by the load of its joint: `bearing.rs` reads the load, `loads.rs` has it as a function of
-//! efforts, `slipping.rs` solves for what slides, `capacities.rs` for what may stick.
+//! Friction by the load of its joint: `bearing.rs` reads the load, `loads.rs` has it as a function
+//! of efforts, `slipping.rs` solves for what slides, `capacities.rs` for what may stick.
 //!
 //! `turning.rs` counts the turns of an angle that has limits.
 //!

@@ -231,14 +231,16 @@ fn eliminated<S: Real, const K: usize>(
     mut right: [S; K],
 ) -> Result<[S; K], usize> {
     for k in 0..K {
-        let pivot = matrix[k][k];
-        if !(pivot > S::constant(PIVOT)) {
+        let row = matrix[k];
+        let pivot = row[k];
+        let is_positive = pivot > S::constant(PIVOT);
+        if !is_positive {
             return Err(k);
         }
         for i in k + 1..K {
             let factor = matrix[i][k].quotient(pivot);
-            for j in k..K {
-                matrix[i][j] = matrix[i][j] - factor * matrix[k][j];
+            for (element, &above) in matrix[i].iter_mut().zip(&row).skip(k) {
+                *element = *element - factor * above;
             }
             right[i] = right[i] - factor * right[k];
         }

@@ -10,6 +10,7 @@ mod pendulum;
 mod reference;
 mod refused;
 mod slides;
+mod spatial;
 
 use holonom::prelude::*;
 

@@ -1,5 +1,6 @@
 //! A rod that swings on a hinge with a radius, until it stays.
 
+use holonom::RadauIIA;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::InteractionMode as Mode;
@@ -80,4 +81,70 @@ fn coefficient_and_radius_are_a_product() {
         rod.view(1.0, &report.state).expect("a view").angle(h.hinge)
     });
     assert!((ends[0] - ends[1]).abs() < 1e-12, "{ends:?}");
+}
+
+/// The load is that of every stage, so methods keep their order, and implicit ones take it as well.
+#[test]
+fn methods_keep_their_order() {
+    let (rod, h) = (Rod::default(), Rod::HANDLES);
+    let friction = || Interaction::friction_by_load(h.hinge, 0.6).radius(0.05);
+    let fixed = |steps: u32| {
+        let report = rod
+            .simulation(StandardLagrange, Rk4::every(0.8 / f64::from(steps)))
+            .interactions([friction()])
+            .run(0.0..=0.8, every(0.8), |_| ())
+            .expect("it swings");
+        rod.view(0.8, &report.state).expect("a view").angle(h.hinge)
+    };
+    let adaptive = |tolerance: Tolerance<f64>| {
+        let report = rod
+            .simulation(StandardLagrange, RadauIIA::new(tolerance))
+            .interactions([friction()])
+            .run(0.0..=0.8, every(0.8), |_| ())
+            .expect("it swings");
+        rod.view(0.8, &report.state).expect("a view").angle(h.hinge)
+    };
+    let report = rod
+        .simulation(StandardLagrange, DormandPrince::new(tight()))
+        .interactions([friction()])
+        .run(0.0..=0.8, every(0.8), |_| ())
+        .expect("it swings");
+    let exact = rod.view(0.8, &report.state).expect("a view").angle(h.hinge);
+    let errors = [20, 40, 80].map(|steps| (fixed(steps) - exact).abs());
+    for pair in errors.windows(2) {
+        assert!(pair[0] / pair[1] > 14.0, "{errors:?}");
+    }
+    let implicit = adaptive(Tolerance {
+        relative: 1e-10,
+        absolute: 1e-10,
+    });
+    assert!((implicit - exact).abs() < 1e-8, "{implicit} {exact}");
+}
+
+/// With a penalty the load has the bias of its compliance.
+#[test]
+fn a_penalty_has_its_bias() {
+    let (rod, h) = (Rod::default(), Rod::HANDLES);
+    let swung = |alpha: Option<f64>| {
+        let friction = Interaction::friction_by_load(h.hinge, 0.6).radius(0.05);
+        let integrator = DormandPrince::new(tight());
+        let report = match alpha {
+            Some(alpha) => rod
+                .simulation(Penalty::new(alpha, 10.0, 1.0), integrator)
+                .absolute_coordinates()
+                .interactions([friction])
+                .run(0.0..=0.5, every(0.5), |_| ()),
+            None => rod
+                .simulation(StandardLagrange, integrator)
+                .absolute_coordinates()
+                .interactions([friction])
+                .run(0.0..=0.5, every(0.5), |_| ()),
+        };
+        let state = report.expect("it swings").state;
+        rod.view(0.5, &state).expect("a view").angle(h.hinge)
+    };
+    let exact = swung(None);
+    let errors = [1e5, 1e6].map(|alpha| (swung(Some(alpha)) - exact).abs());
+    let ratio = errors[0] / errors[1];
+    assert!(errors[0] < 1e-3 && (ratio - 10.0).abs() < 1.0, "{errors:?}");
 }
