@@ -24,7 +24,7 @@ const ROUNDS: usize = 3;
 const STEPS: usize = 200;
 
 /// Round-off of efforts, in `EPSILON`.
-const NOISE: f64 = 8.0;
+const NOISE: f64 = 16.0;
 
 /// A pivot of `I - G` below this is none: no digits of the effort would be left.
 const PIVOT: f64 = 1e-9;
