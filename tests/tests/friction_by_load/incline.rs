@@ -223,3 +223,58 @@ fn steps_and_single_precision() {
         .displacement(h.slide);
     assert!((f64::from(place) + 2.0 / brakes).abs() < 1e-5, "{place}");
 }
+
+fn bounces<C: Coordinates<Incline>>() {
+    let (incline, h) = (Incline::default(), Incline::HANDLES);
+    let slide = h.slide.displacement();
+    let mut impacts: Vec<f64> = Vec::new();
+    let mut last = f64::NAN;
+    let report = Simulation::new(&incline, StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .interactions([
+            Interaction::limits(slide, [f64::NEG_INFINITY, 1.0]).restitution(0.5),
+            Interaction::friction_by_load(h.slide, 0.5),
+        ])
+        .run(0.0..=20.0, every(0.1), |sample| -> Result<(), Fault> {
+            if let Some(impact) = sample.impact(0)?
+                && impact.time != last
+            {
+                last = impact.time;
+                impacts.push(impact.rates[0]);
+            }
+            if sample.time() > 10.0 {
+                // Stop and friction share what holds it.
+                assert_eq!(sample.mode(1)?, Mode::Sticking);
+                let held = sample.effort(0)? + sample.effort(1)?;
+                assert!((held + 2.0 * GRAVITY * SINE).abs() < 1e-10, "{held}");
+                let capacity = 2.0 * GRAVITY * 0.5 * COSINE;
+                assert!(sample.effort(1)?.abs() < capacity * (1.0 + 1e-11));
+                // The top of the last bounce is nearer than what counts as touching.
+                let beyond = sample.displacement(h.slide) - 1.0;
+                assert!(beyond.abs() < 1e-9, "{beyond:e}");
+            }
+            Ok(())
+        })
+        .expect("it comes to rest");
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
+    // Down by g (sin - mu cos), up against g (sin + mu cos).
+    let [down, up] = [-0.5, 0.5].map(|mu| GRAVITY * (SINE + mu * COSINE));
+    assert!(
+        (impacts[0] - (2.0 * down).sqrt()).abs() < 1e-10,
+        "{impacts:?}"
+    );
+    for pair in impacts.windows(2).take(4) {
+        let ratio = pair[1] / pair[0];
+        assert!(
+            (ratio - 0.5 * (down / up).sqrt()).abs() < 1e-8,
+            "{impacts:?}"
+        );
+    }
+    assert!(impacts.len() > 4, "{impacts:?}");
+}
+
+#[test]
+fn a_block_that_rubs_bounces_on_a_stop_until_it_rests() {
+    bounces::<Relative>();
+    bounces::<Absolute>();
+}
