@@ -15,6 +15,7 @@ pub(crate) mod apart;
 pub(crate) mod compliance;
 pub(crate) mod extent;
 pub(crate) mod frames;
+pub(crate) mod joint_load;
 pub(crate) mod newton;
 pub(crate) mod projection;
 pub(crate) mod retract;

@@ -9,7 +9,7 @@ use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, Loads};
 use crate::measure::view::View;
 use crate::mechanism::coordinates::{
-    Absolute, Coordinates, EquationsIn, Evaluation, First, Prepared,
+    Absolute, AbsoluteEquations, Coordinates, EquationsIn, Evaluation, First, Prepared,
 };
 use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms};
 use crate::nonsmooth::columns::Setting;
@@ -20,8 +20,8 @@ use crate::state::vector::{Array, MovingState, StateParts};
 /// The equations of motion in some coordinates, with a formulation and forces of a closure.
 pub(crate) struct Evaluator<'d, S: Real, M: Mechanism, F, A, C: Coordinates<M>> {
     pub(super) equations: &'d EquationsIn<S, M, C>,
-    /// What depends on parameters alone, in absolute coordinates.
-    pub(super) absolute: &'d M::Constants<S>,
+    /// The same in absolute coordinates.
+    pub(super) absolute: &'d AbsoluteEquations<S, M>,
     pub(super) stabilisation: &'d Stabilisation<S>,
     pub(super) formulation: &'d F,
     pub(super) forces: &'d A,
@@ -137,7 +137,7 @@ where
         let law = |read: &C::State<S>, forces: &mut M::Velocities<S>| {
             C::with_bodies(constants, read, |bodies| {
                 let described = *forces;
-                let view = View::new(self.absolute, time, bodies);
+                let view = View::new(&self.absolute.constants, time, bodies);
                 self.forces
                     .apply(time, bodies, &mut Loads::new(view, forces));
                 let velocities = bodies.velocities().as_slice();
@@ -186,19 +186,19 @@ where
         })
     }
 
-    /// Calls with the factorised equations, and with the accelerations that the forces of the
+    /// Calls with the factorised equations, and with the solution that the forces of the
     /// description and of closures give.
     pub(super) fn set_up(
         &self,
         time: S,
         state: &C::State<S>,
-        then: impl FnOnce(&Setting<'_, S, M, F, C>, &C::Velocities<S>) -> Result<(), Fault>,
+        then: impl FnOnce(&Setting<'_, S, M, F, C>, &Solution<S, M, C>) -> Result<(), Fault>,
     ) -> Result<(), Fault> {
         let mut place = C::State::zeros();
         let (result, _) = self.begin(time, state, &mut place, |first, rates| {
             let mut solution = begun::<S, M, F, C>(first)?;
             let saddle = self.refined((time, state), first, rates, &mut solution)?;
-            then(&self.setting(saddle, rates), &solution.accelerations)
+            then(&self.setting(saddle, rates), &solution)
         });
         match result {
             Err(Fault::StateNotFinite) => Err(self.fault(time, state)),
@@ -221,7 +221,7 @@ where
         let saddle = self.refined((time, state), first, rates, &mut solution)?;
         if A::INTERACTS {
             let task = Task::Complete(&mut solution, wants_efforts);
-            let completed = self.forces.interact(&self.setting(saddle, rates), task);
+            let completed = self.interact(&self.setting(saddle, rates), task);
             completed.map_err(explained_later)?;
         }
         let constants = &self.equations.constants;
@@ -273,10 +273,47 @@ where
         }
     }
 
+    /// Has the interactions do something, with the reactions of joints where these are asked for.
+    pub(super) fn interact(
+        &self,
+        setting: &Setting<'_, S, M, F, C>,
+        task: Task<'_, S, M, C>,
+    ) -> Result<(), Fault> {
+        if C::IS_RELATIVE && task.asks_for_loads(self.forces.interactions()) {
+            self.interact_by_reactions(setting, task)
+        } else {
+            self.forces.interact(setting, None, task)
+        }
+    }
+
+    /// The same by the equations in absolute coordinates, too: joints of a tree have no multipliers
+    /// in relative ones.
+    #[inline(never)]
+    fn interact_by_reactions(
+        &self,
+        setting: &Setting<'_, S, M, F, C>,
+        task: Task<'_, S, M, C>,
+    ) -> Result<(), Fault> {
+        let of_bodies = Evaluator::<S, M, F, A, Absolute> {
+            equations: self.absolute,
+            absolute: self.absolute,
+            stabilisation: self.stabilisation,
+            formulation: self.formulation,
+            forces: self.forces,
+        };
+        let saddle = &setting.saddle;
+        C::with_bodies(saddle.constants, saddle.state, |bodies| {
+            of_bodies.set_up(saddle.time, bodies, |absolute, solution| {
+                let reactions = Some((absolute, &solution.multipliers));
+                self.forces.interact(setting, reactions, task)
+            })
+        })
+    }
+
     /// Forces and moments of the closure alone on bodies whose Euler parameters have length 1.
     pub(super) fn applied(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
         let mut forces = M::Velocities::<S>::zeros();
-        let view = View::new(self.absolute, time, bodies);
+        let view = View::new(&self.absolute.constants, time, bodies);
         self.forces
             .apply(time, bodies, &mut Loads::new(view, &mut forces));
         forces
@@ -295,7 +332,7 @@ where
     pub(super) fn all_forces(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
         let mut forces = M::forces(&self.equations.constants, time, bodies);
         if A::PRESENT {
-            let view = View::new(self.absolute, time, bodies);
+            let view = View::new(&self.absolute.constants, time, bodies);
             self.forces
                 .apply(time, bodies, &mut Loads::new(view, &mut forces));
         }

@@ -119,14 +119,15 @@ where
         }
         let read = &with_unit_orientations::<S, M>(bodies);
         let applied = A::PRESENT.then(|| {
-            let mut forces = M::forces(self.absolute, time, read);
-            let view = View::new(self.absolute, time, read);
+            let mut forces = M::forces(&self.absolute.constants, time, read);
+            let view = View::new(&self.absolute.constants, time, read);
             self.forces
                 .apply(time, read, &mut Loads::new(view, &mut forces));
             forces
         });
         let applied = applied.as_ref();
-        let origin = before_accelerations::<S, M, F::Terms>(self.absolute, time, read, applied);
+        let origin =
+            before_accelerations::<S, M, F::Terms>(&self.absolute.constants, time, read, applied);
         let of_body = || {
             let mut accelerations = rates.rates_slice().iter();
             let place = accelerations.position(|rate| !rate.is_finite())?;
@@ -135,7 +136,7 @@ where
         Fault::RatesNotFinite {
             origin: origin
                 .or_else(of_body)
-                .or_else(|| state_of::<S, M>(self.absolute, time, read))
+                .or_else(|| state_of::<S, M>(&self.absolute.constants, time, read))
                 .unwrap_or(NotFinite::Unknown),
         }
     }

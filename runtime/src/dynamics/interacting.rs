@@ -84,6 +84,33 @@ where
         }
     }
 
+    /// The power (W) of friction that slides by its load, which is no force of a closure; `None`
+    /// where it is not known.
+    pub(super) fn power_by_load(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        bodies: &M::State<S>,
+    ) -> Option<S> {
+        if !A::INTERACTS || !self.tracked().iter().any(Tracked::slips_by_load) {
+            return Some(S::zero());
+        }
+        self.efforts(time, state).ok()?;
+        let scene = Scene::<S, M> {
+            constants: self.constants(),
+            time,
+            bodies,
+        };
+        let slipping = self
+            .tracked()
+            .iter()
+            .filter(|tracked| tracked.slips_by_load());
+        Some(slipping.fold(S::zero(), |power, tracked| {
+            let rate = tracked.interaction.quantity.rate(&scene);
+            tracked.status.get().effort.fused(rate, power)
+        }))
+    }
+
     /// The state with what is held brought back to where it is held, at rest; `None` where nothing
     /// is.
     pub(crate) fn held(&self, time: S, state: &C::State<S>) -> Result<Option<C::State<S>>, Fault> {
@@ -96,7 +123,7 @@ where
         let evaluator = self.evaluator();
         evaluator.set_up(time, state, |setting, _| {
             let task = Task::Correct([&mut faster, &mut farther]);
-            evaluator.forces.interact(setting, task)
+            evaluator.interact(setting, task)
         })?;
         let way = C::way(self.own_constants(), time, state, &farther);
         let mut next = state.plus([(S::one(), &way)]);
@@ -116,13 +143,13 @@ where
         let evaluator = self.evaluator();
         evaluator.set_up(time, state, |setting, _| {
             let task = Task::Strike(&mut change, is_moved);
-            evaluator.forces.interact(setting, task)
+            evaluator.interact(setting, task)
         })?;
         let mut next = *state;
         add(next.rates_slice_mut(), S::one(), change.as_slice());
-        evaluator.set_up(time, &next, |setting, accelerations| {
-            let task = Task::Choose(accelerations);
-            evaluator.forces.interact(setting, task)
+        evaluator.set_up(time, &next, |setting, solution| {
+            let task = Task::Choose(solution);
+            evaluator.interact(setting, task)
         })?;
         Ok(next)
     }

@@ -403,7 +403,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     pub(crate) fn evaluator(&self) -> Evaluator<'_, S, M, F, A, C> {
         Evaluator {
             equations: C::equations(&self.absolute, &self.own),
-            absolute: &self.absolute.constants,
+            absolute: &self.absolute,
             stabilisation: &self.stabilisation,
             formulation: &self.formulation,
             forces: &self.forces,
@@ -415,7 +415,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     pub(crate) fn of_bodies(&self) -> Evaluator<'_, S, M, F, A, Absolute<C::Orientation>> {
         Evaluator {
             equations: &self.absolute,
-            absolute: &self.absolute.constants,
+            absolute: &self.absolute,
             stabilisation: &self.stabilisation,
             formulation: &self.formulation,
             forces: &self.forces,

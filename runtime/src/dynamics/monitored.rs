@@ -174,7 +174,8 @@ where
         if M::REPORT.forces.is_empty() && !A::PRESENT {
             return None;
         }
-        let mut power = M::power(self.constants(), time, bodies);
+        let by_load = self.power_by_load(time, state, bodies)?;
+        let mut power = M::power(self.constants(), time, bodies) + by_load;
         if A::PRESENT {
             let applied = self.applied(time, &with_unit_orientations::<S, M>(bodies));
             power = plus_dot(power, applied.as_slice(), bodies.velocities().as_slice());
@@ -190,7 +191,8 @@ where
         let at_rest = M::State::from_parts(*bodies.coordinates(), M::Velocities::<S>::zeros());
         let mut by_time = M::constraint_rates(constants, time, &at_rest);
         let mut multipliers = Array::zeros();
-        let described = M::power(constants, time, bodies);
+        let by_load = self.power_by_load(time, state, bodies)?;
+        let described = M::power(constants, time, bodies) + by_load;
         let mut power = described + self.multipliers(time, state, &mut multipliers)?;
         for (row, &multiplier) in multipliers.as_slice().iter().enumerate() {
             let row = C::row_of_all(row);

@@ -199,6 +199,20 @@ pub enum Fault {
         /// The time (s).
         time: f64,
     },
+    /// Friction by the load of its joint has no effort while it slides, or several: what it adds to
+    /// its own load, times its coefficient, reaches 1 (Painleve's paradox).
+    NoUniqueFriction {
+        /// The field of the joint.
+        joint: &'static str,
+        /// The time (s).
+        time: f64,
+    },
+    /// The load of a joint with friction by it is not determined: equations of the joint depend on
+    /// others, or what is held shares its efforts in a way that nothing decides.
+    LoadNotUnique {
+        /// The field of the joint.
+        joint: &'static str,
+    },
     /// The modes of interactions change again and again at once.
     EndlessModes {
         /// The field of the joint or the point of the last one.

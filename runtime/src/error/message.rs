@@ -228,6 +228,8 @@ impl fmt::Display for Fault {
             | Self::NoSuchInteraction { .. }
             | Self::BeyondLimit { .. }
             | Self::NoMode { .. }
+            | Self::NoUniqueFriction { .. }
+            | Self::LoadNotUnique { .. }
             | Self::EndlessModes { .. }
             | Self::NoInteractions => interactions::say(self, f),
             Self::NotVerified => write!(

@@ -8,6 +8,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::interaction::Interaction;
+use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::{Task, perform};
@@ -63,8 +64,9 @@ where
     fn interact<F: Formulation<S>, C: Coordinates<M>>(
         &self,
         setting: &Setting<'_, S, M, F, C>,
+        reactions: Option<Reactions<'_, S, M, F>>,
         task: Task<'_, S, M, C>,
     ) -> Result<(), Fault> {
-        perform(setting, &self.list, task)
+        perform(setting, reactions, &self.list, task)
     }
 }

@@ -11,6 +11,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::handle::{BodyHandle, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::columns::Setting;
+use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::quantity::{JointQuantity, Quantity};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
@@ -44,6 +45,7 @@ pub trait AppliedForces<S: Scalar, M: Mechanism> {
     fn interact<F: Formulation<S>, C: Coordinates<M>>(
         &self,
         _setting: &Setting<'_, S, M, F, C>,
+        _reactions: Option<Reactions<'_, S, M, F>>,
         _task: Task<'_, S, M, C>,
     ) -> Result<(), Fault>
     where
@@ -81,12 +83,13 @@ impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for &A
     fn interact<F: Formulation<S>, C: Coordinates<M>>(
         &self,
         setting: &Setting<'_, S, M, F, C>,
+        reactions: Option<Reactions<'_, S, M, F>>,
         task: Task<'_, S, M, C>,
     ) -> Result<(), Fault>
     where
         S: Real,
     {
-        A::interact(self, setting, task)
+        A::interact(self, setting, reactions, task)
     }
 }
 

@@ -2,12 +2,13 @@
 
 use nalgebra::Vector3;
 
+use crate::constraints::joint_load::{load_on_body, orientation};
 use crate::math::quaternion::rotate;
 use crate::math::scalar::Scalar;
-use crate::math::vec3::{cross, minus, plus, read};
+use crate::math::vec3::{cross, minus, plus};
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
-use crate::state::vector::{Array, StateParts};
+use crate::state::vector::Array;
 
 /// A force and a moment, reduced to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,45 +99,6 @@ pub(crate) fn wrench<S: Scalar, M: Mechanism>(
         point: Vector3::from(point),
         is_unique: info.undetermined.is_empty(),
     })
-}
-
-/// `-D^T lambda` of one joint on one body: force (N) and moment about the centre of mass (N m),
-/// both global.
-fn load_on_body<S: Scalar, M: Mechanism>(
-    jacobian: &[S],
-    state: &M::State<S>,
-    multipliers: &M::Multipliers<S>,
-    joint: usize,
-    body: usize,
-) -> [[S; 3]; 2] {
-    let mut load = [S::zero(); 6];
-    for block in M::REPORT
-        .blocks
-        .iter()
-        .filter(|b| b.joint == joint && b.body == body)
-    {
-        let values = jacobian
-            .get(block.offset..)
-            .unwrap_or(&[])
-            .chunks(block.columns.max(1));
-        let rows = multipliers.as_slice().iter().skip(block.row);
-        for (row, &lambda) in values.zip(rows).take(block.rows) {
-            for (element, &value) in load.iter_mut().zip(row) {
-                *element = *element - value * lambda;
-            }
-        }
-    }
-    let [f1, f2, f3, m1, m2, m3] = load;
-    let p = orientation::<S, M>(state, BodyHandle::new(body));
-    [[f1, f2, f3], rotate(&p, &[m1, m2, m3])]
-}
-
-/// `p` as it is; no rotation for a particle.
-fn orientation<S: Scalar, M: Mechanism>(state: &M::State<S>, body: BodyHandle<M>) -> [S; 4] {
-    match body.orientation() {
-        Some((_, place)) => read(state.coordinates().as_slice(), place),
-        None => [S::one(), S::zero(), S::zero(), S::zero()],
-    }
 }
 
 /// Components along principal body axes, turned into global axes.

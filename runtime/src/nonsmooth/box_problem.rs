@@ -61,7 +61,7 @@ impl<S: Real, const K: usize> BoxProblem<S, K> {
     }
 
     /// `W x + a`.
-    fn residuals(&self, efforts: &[S; K]) -> [S; K] {
+    pub(super) fn residuals(&self, efforts: &[S; K]) -> [S; K] {
         let mut residuals = self.offset;
         for (residual, row) in residuals.iter_mut().zip(&self.matrix) {
             let terms = row.iter().zip(efforts);

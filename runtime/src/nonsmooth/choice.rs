@@ -1,31 +1,36 @@
 //! The modes that follow, once impulses are known.
 
 use crate::error::Fault;
-use crate::formulation::Formulation;
+use crate::formulation::{Formulation, Solution};
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Place};
+use crate::nonsmooth::capacities::Capacities;
 use crate::nonsmooth::columns::{Columns, Setting};
-use crate::nonsmooth::interaction::{Friction, Law};
+use crate::nonsmooth::interaction::Law;
+use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{InteractionMode, Next, Tracked};
-use crate::nonsmooth::switch::{AT_BOUND, Motion, ROUND_OFF, part, solved};
-
-/// What was found at its capacity slips, to this part of it: more than the floor of a problem.
-const SLIPS: f64 = 1e-11;
+use crate::nonsmooth::switch::{AT_BOUND, Motion, ROUND_OFF, part};
+use crate::state::vector::Array as _;
 
 /// Accelerations that are none, in `EPSILON` of what efforts bring about.
 const NO_ACCELERATION: f64 = 256.0;
 
+/// What has no freedom turns back at a dead point with more than this part of the acceleration that
+/// the forces would give it without constraints.
+const TURNING: f64 = 1e-9;
+
 /// Round-off of a gap, in `EPSILON` of its size.
 const OF_GAP: f64 = 16.0;
 
-/// The modes that follow, after impulses, from accelerations without efforts of interactions.
+/// The modes that follow, after impulses, from the solution without efforts of interactions.
 pub(crate) fn modes<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
+    reactions: Option<Reactions<'_, S, M, F>>,
     list: &[Tracked<S, M>; K],
-    accelerations: &C::Velocities<S>,
+    free: &Solution<S, M, C>,
 ) -> Result<(), Fault>
 where
     S: Real,
@@ -38,39 +43,28 @@ where
         !matches!(next, Next::Without)
     });
     let columns = Columns::of(setting, list, &chosen)?;
-    let offset = setting.accelerations(list, accelerations);
+    let offset = setting.accelerations(list, &free.accelerations);
     let mut problem = BoxProblem::at_rest(columns.delassus, offset);
     let motions: [Motion<S>; K] =
         setting.here(|scene| list.each_ref().map(|tracked| Motion::of(tracked, scene)));
-    let infinite = S::constant(f64::INFINITY);
+    let loads = if list.iter().any(|tracked| tracked.bearing().is_some()) {
+        let loads = BearingLoads::of(setting, reactions, list, &columns, free)?;
+        Some(loads)
+    } else {
+        None
+    };
+    let capacities = Capacities {
+        list,
+        rates: motions.each_ref().map(|motion| motion.rate),
+        loads: loads.as_ref(),
+    };
     // The sign of the rate at which friction slides, or begins to.
-    let mut sliding = [None; K];
-    for (index, tracked) in list.iter().enumerate() {
-        let (lower, upper) = match (tracked.status.get().next, tracked.friction()) {
-            (Next::On(sign), _) if sign > S::zero() => (S::zero(), infinite),
-            (Next::On(_), _) => (-infinite, S::zero()),
-            (Next::Still, Some(friction)) => {
-                // What was found at its capacity does not fall back by round-off.
-                let status = tracked.status.get();
-                let slips = status.is_found && status.before == InteractionMode::Sticking;
-                let part = if slips {
-                    S::one() - part::<S>(SLIPS, ROUND_OFF)
-                } else {
-                    S::one()
-                };
-                let capacity = part * friction.at_rest();
-                (-capacity, capacity)
-            }
-            (Next::Moving(sign), Some(friction)) => {
-                sliding[index] = Some(sign);
-                let effort = -sign * friction.sliding(motions[index].rate);
-                (effort, effort)
-            }
-            _ => (S::zero(), S::zero()),
-        };
-        (problem.lower[index], problem.upper[index]) = (lower, upper);
-    }
-    let mut solution = solved(&problem, setting, list)?;
+    let forces = setting.here(strength_of_forces);
+    let no_acceleration = columns
+        .free
+        .map(|free| S::constant(TURNING) * (free * forces).sqrt());
+    let mut sliding = capacities.sliding(&problem, &no_acceleration);
+    let mut solution = capacities.solved(setting, &mut problem, &sliding)?;
     let roots: [S; K] = core::array::from_fn(|index| {
         let diagonal = columns.delassus[index][index];
         diagonal.max(S::zero()).sqrt()
@@ -79,28 +73,43 @@ where
     // What begins to slide has the friction of sliding: others may follow.
     for _ in 0..K {
         let mut is_changed = false;
-        let can_be_held = held_at_bounds(list, &problem, &solution, (strength, &roots), &sliding);
+        let at_work = (strength, &roots);
+        let keeps_shares = loads.is_some();
+        let can_be_held =
+            held_at_bounds(list, &problem, &solution, at_work, &sliding, keeps_shares);
         for (index, tracked) in list.iter().enumerate() {
-            let (Next::Still, None) = (tracked.status.get().next, sliding[index]) else {
+            let is_friction = tracked.friction().is_some();
+            let next = (tracked.status.get().next, sliding[index]);
+            if !is_friction || next != (Next::Still, None) {
                 continue;
-            };
-            let Some(friction) = tracked.friction() else {
-                continue;
-            };
+            }
+            let capacity = problem.upper[index];
             let is_held = can_be_held[index];
-            let Some(sign) = begins_to_slide(friction, &solution, (index, is_held)) else {
+            let Some(sign) = begins_to_slide(capacity, &solution, (index, is_held)) else {
                 continue;
             };
             sliding[index] = Some(sign);
-            let effort = -sign * friction.sliding(S::zero());
+            let load = capacities.load(index, &solution.efforts);
+            let (effort, _) = capacities.bounds(index, sliding[index], load);
             is_changed |= problem.lower[index] != effort && problem.upper[index] != effort;
-            (problem.lower[index], problem.upper[index]) = (effort, effort);
         }
         if !is_changed {
             break;
         }
-        solution = solved(&problem, setting, list)?;
+        solution = capacities.solved(setting, &mut problem, &sliding)?;
         strength = strength_of(&problem, &solution, &roots);
+    }
+    if let Some(loads) = &loads {
+        let holds = solution.places.map(|place| place == Place::Inside);
+        let slides = sliding.map(|sign| sign.is_some());
+        if let Some(index) = loads.shared(&columns.delassus, &holds, &slides) {
+            return Err(Fault::LoadNotUnique {
+                joint: list.get(index).map_or("", |first| first.interaction.name()),
+            });
+        }
+        for (tracked, load) in list.iter().zip(loads.sizes(&solution.efforts)) {
+            tracked.take_load(load);
+        }
     }
     for (index, tracked) in list.iter().enumerate() {
         let effort = solution.efforts[index];
@@ -133,6 +142,17 @@ where
     Ok(())
 }
 
+/// Forces and moments on the bodies in the metric of the mass: with what a unit effort does without
+/// constraints, the square of an acceleration.
+fn strength_of_forces<S: Real, M: Mechanism>(scene: &Scene<'_, S, M>) -> S {
+    let forces = M::forces(scene.constants, scene.time, scene.bodies);
+    let mass = M::mass::<S>(scene.constants);
+    let pairs = forces.as_slice().iter().zip(mass.as_slice());
+    pairs.fold(S::zero(), |sum, (&force, &mass)| {
+        (force * force).fused(mass.reciprocal(), sum)
+    })
+}
+
 /// The largest acceleration that is at work, over the root of its compliance: so all quantities
 /// can be compared, whatever their units.
 fn strength_of<S: Real, const K: usize>(
@@ -152,13 +172,15 @@ fn strength_of<S: Real, const K: usize>(
 }
 
 /// Which frictions can be held at their bounds: those without acceleration, if they have the same
-/// effort where all that is held is solved for. They have not where a limit bears the rest.
+/// effort where all that is held is solved for. They have not where a limit bears the rest. Beside
+/// friction by load, what is held keeps the share that it has.
 fn held_at_bounds<S: Real, M: Mechanism, const K: usize>(
     list: &[Tracked<S, M>; K],
     problem: &BoxProblem<S, K>,
     solution: &BoxSolution<S, K>,
     (strength, roots): (S, &[S; K]),
     sliding: &[Option<S>; K],
+    keeps_shares: bool,
 ) -> [bool; K] {
     let round_off = S::constant(NO_ACCELERATION) * S::EPSILON * strength;
     let mut held = [false; K];
@@ -174,7 +196,7 @@ fn held_at_bounds<S: Real, M: Mechanism, const K: usize>(
             places[index] = Place::Inside;
         }
     }
-    if !held.contains(&true) {
+    if keeps_shares || !held.contains(&true) {
         return held;
     }
     let Some(efforts) = problem.with_places(&places) else {
@@ -193,7 +215,7 @@ fn held_at_bounds<S: Real, M: Mechanism, const K: usize>(
 /// The sign of the rate at which friction begins to slide; `None` where it sticks, or can be held
 /// at its bound.
 fn begins_to_slide<S: Real, const K: usize>(
-    friction: &Friction<S>,
+    capacity: S,
     solution: &BoxSolution<S, K>,
     (index, can_be_held): (usize, bool),
 ) -> Option<S> {
@@ -201,7 +223,7 @@ fn begins_to_slide<S: Real, const K: usize>(
     if can_be_held {
         return None;
     }
-    if friction.at_rest() > S::zero() {
+    if capacity > S::zero() {
         return match solution.places[index] {
             Place::Lower => Some(S::one()),
             Place::Upper => Some(-S::one()),
@@ -233,7 +255,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
                 status.held = self.interaction.quantity.value(scene);
             }
             status.mode = mode;
-            status.effort = effort;
+            (status.effort, status.share) = (effort, effort);
         });
         if let Law::Limits(limits) = &self.interaction.law {
             self.begin_turning(self.value_now(limits, scene), scene);

@@ -4,7 +4,7 @@ use crate::error::Fault;
 use crate::formulation::{Formulation, Saddle, Solution};
 use crate::forward::{Forward, lifted};
 use crate::math::scalar::Real;
-use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::coordinates::{AbsoluteEquations, Coordinates};
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
@@ -15,7 +15,7 @@ pub struct Setting<'a, S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<
     pub(crate) saddle: Saddle<'a, S, M, C, F::Terms>,
     /// What [`Coordinates::begin`] left.
     pub(crate) rates: &'a C::State<S>,
-    pub(crate) absolute: &'a M::Constants<S>,
+    pub(crate) absolute: &'a AbsoluteEquations<S, M>,
     pub(crate) formulation: &'a F,
 }
 
@@ -54,7 +54,7 @@ where
     fn with_scene<R>(&self, state: &C::State<S>, then: impl FnOnce(&Scene<'_, S, M>) -> R) -> R {
         C::with_bodies(self.saddle.constants, state, |bodies| {
             then(&Scene {
-                constants: self.absolute,
+                constants: &self.absolute.constants,
                 time: self.saddle.time,
                 bodies,
             })
@@ -95,7 +95,7 @@ where
         let instant = Forward::new(S::zero(), [S::one()]);
         let moving = moving.plus([(instant, &along)]);
         let constants: C::Constants<Moving<S>> = lifted(constants);
-        let absolute: M::Constants<Moving<S>> = lifted(self.absolute);
+        let absolute: M::Constants<Moving<S>> = lifted(&self.absolute.constants);
         C::with_bodies(&constants, &moving, |bodies| {
             let scene = Scene::<Moving<S>, M> {
                 constants: &absolute,
@@ -125,12 +125,16 @@ pub(crate) fn rates<S: Real, M: Mechanism, const K: usize>(
 pub(crate) struct Columns<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> {
     velocities: [C::Velocities<S>; K],
     multipliers: [C::Multipliers<S>; K],
-    /// What it does to the rate of every quantity: symmetric, positive semidefinite.
+    /// What it does to the rate of every quantity: symmetric, positive semidefinite. Zeros of what
+    /// has no freedom.
     pub(crate) delassus: [[S; K]; K],
+    /// What it would do to its own rate without constraints.
+    pub(super) free: [S; K],
+    chosen: [bool; K],
 }
 
 impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, K> {
-    /// The columns of those that are chosen; zeros of the others, and of those without freedom.
+    /// The columns of those that are chosen; zeros of the others.
     #[inline(never)]
     pub(crate) fn of<F: Formulation<S>>(
         setting: &Setting<'_, S, M, F, C>,
@@ -141,9 +145,11 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, 
             velocities: [Array::zeros(); K],
             multipliers: [Array::zeros(); K],
             delassus: [[S::zero(); K]; K],
+            free: [S::zero(); K],
+            chosen: *chosen,
         };
         let offset = setting.rates_at(list, &Array::zeros());
-        let mass = M::mass::<S>(setting.absolute);
+        let mass = M::mass::<S>(&setting.absolute.constants);
         let zero = S::zero();
         for (index, tracked) in list.iter().enumerate() {
             if !chosen[index] {
@@ -160,6 +166,9 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, 
             });
             let (velocities, multipliers) = solved(setting, &loads)?;
             let rates = setting.rates_at(list, &velocities);
+            columns.velocities[index] = velocities;
+            columns.multipliers[index] = multipliers;
+            columns.free[index] = free;
             let compliance = rates[index] - offset[index];
             if compliance <= S::constant(NO_FREEDOM) * S::EPSILON * free {
                 continue;
@@ -167,8 +176,6 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, 
             for (row, (&rate, &offset)) in rates.iter().zip(&offset).enumerate() {
                 columns.delassus[row][index] = rate - offset;
             }
-            columns.velocities[index] = velocities;
-            columns.multipliers[index] = multipliers;
         }
         columns.symmetrise(chosen);
         Ok(columns)
@@ -185,6 +192,12 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, 
                 }
             }
         }
+    }
+
+    /// The velocities and multipliers of one that was chosen.
+    pub(super) fn column(&self, index: usize) -> Option<ColumnOf<'_, S, M, C>> {
+        let column = (&self.velocities[index], &self.multipliers[index]);
+        self.chosen[index].then_some(column)
     }
 
     /// Adds what efforts do to velocities or accelerations.
@@ -214,13 +227,19 @@ fn add<S: Real>(factor: S, x: &[S], y: &mut [S]) {
 }
 
 /// Velocities and multipliers by loads.
-type ByLoads<S, M, C> = (
+pub(super) type ByLoads<S, M, C> = (
     <C as Coordinates<M>>::Velocities<S>,
     <C as Coordinates<M>>::Multipliers<S>,
 );
 
+/// The same of a unit effort.
+type ColumnOf<'c, S, M, C> = (
+    &'c <C as Coordinates<M>>::Velocities<S>,
+    &'c <C as Coordinates<M>>::Multipliers<S>,
+);
+
 /// The solution for loads on the bodies alone.
-fn solved<S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>>(
+pub(super) fn solved<S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>>(
     setting: &Setting<'_, S, M, F, C>,
     loads: &M::Velocities<S>,
 ) -> Result<ByLoads<S, M, C>, Fault> {

@@ -8,7 +8,9 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::Factors;
 use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::interaction::Law;
+use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::scene::Scene;
+use crate::nonsmooth::slipping::{Refusal, Slipping, held};
 use crate::nonsmooth::status::{InteractionMode, Tracked};
 use crate::state::vector::Array;
 
@@ -23,18 +25,64 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let Law::Friction(friction) = self.interaction.law else {
             return None;
         };
+        if friction.bearing.is_some() {
+            return None;
+        }
         let rate = self.interaction.quantity.rate(scene);
         Some(-sign * friction.sliding(rate))
     }
+
+    /// The effort over the load of friction that slides by it.
+    fn slipping(&self, scene: &Scene<'_, S, M>) -> Option<S> {
+        let sign = self.mode().sliding::<S>()?;
+        let Law::Friction(friction) = self.interaction.law else {
+            return None;
+        };
+        friction.bearing?;
+        let rate = self.interaction.quantity.rate(scene);
+        Some(-sign * friction.sliding(rate))
+    }
+
+    /// Whether it slides by its load.
+    pub(crate) fn slips_by_load(&self) -> bool {
+        self.bearing().is_some() && self.mode().sliding::<S>().is_some()
+    }
+
+    /// The fault of an effort of this friction.
+    pub(super) fn refused(&self, refusal: Refusal, time: S) -> Fault {
+        match refusal {
+            Refusal::NotUnique(_) => Fault::NoUniqueFriction {
+                joint: self.interaction.name(),
+                time: time.to_f64(),
+            },
+            Refusal::NotFinite => Fault::StateNotFinite,
+        }
+    }
 }
 
-/// Adds the efforts that hold to a solution, which has those of sliding friction. Leaves all of
-/// them in the statuses where they are wanted.
+/// The fault of a refusal.
+pub(super) fn refused<S: Real, M: Mechanism, const K: usize>(
+    refusal: Refusal,
+    list: &[Tracked<S, M>; K],
+    time: S,
+) -> Fault {
+    let index = match refusal {
+        Refusal::NotUnique(index) => index,
+        Refusal::NotFinite => 0,
+    };
+    let fault = list
+        .get(index)
+        .map(|tracked| tracked.refused(refusal, time));
+    fault.unwrap_or(Fault::StateNotFinite)
+}
+
+/// Adds the efforts that hold, and those of what slides by its load, to a solution, which has those
+/// of other sliding friction. Leaves all of them in the statuses where they are wanted.
 pub(crate) fn complete<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
+    reactions: Option<Reactions<'_, S, M, F>>,
     list: &[Tracked<S, M>; K],
-    solution: &mut Solution<S, M, C>,
-    is_wanted: bool,
+    (solution, is_wanted): (&mut Solution<S, M, C>, bool),
 ) -> Result<(), Fault>
 where
     S: Real,
@@ -43,13 +91,54 @@ where
     C: Coordinates<M>,
 {
     let holds = list.each_ref().map(|tracked| tracked.mode().holds());
+    let any_holds = holds.contains(&true);
+    let mut chosen = holds;
+    let mut coefficients = [None; K];
+    if list.iter().any(Tracked::slips_by_load) {
+        coefficients = setting.here(|scene| list.each_ref().map(|tracked| tracked.slipping(scene)));
+        for (chosen, coefficient) in chosen.iter_mut().zip(&coefficients) {
+            *chosen |= coefficient.is_some();
+        }
+    }
+    // Beside friction by load, what is held keeps its share.
+    let mut shares = [S::zero(); K];
+    if list.iter().any(|tracked| tracked.bearing().is_some()) {
+        for (share, tracked) in shares.iter_mut().zip(list) {
+            if tracked.mode().holds() {
+                *share = tracked.status.get().share;
+            }
+        }
+    }
     let mut efforts = [S::zero(); K];
-    if holds.contains(&true) {
-        let columns = Columns::of(setting, list, &holds)?;
+    let mut loads = None;
+    if chosen.contains(&true) {
+        let columns = Columns::of(setting, list, &chosen)?;
+        if list.iter().any(|tracked| tracked.asks_for_load(is_wanted)) {
+            loads = Some(BearingLoads::of(
+                setting, reactions, list, &columns, solution,
+            )?);
+        }
         let factors = Factors::of(&columns.delassus, &holds);
-        for _ in 0..ROUNDS {
-            let accelerations = setting.accelerations(list, &solution.accelerations);
-            let change = factors.solve(&accelerations).map(|change| -change);
+        for round in 0..if any_holds { ROUNDS } else { 1 } {
+            let accelerations = if any_holds {
+                setting.accelerations(list, &solution.accelerations)
+            } else {
+                [S::zero(); K]
+            };
+            let change = match &loads {
+                Some(loads) if round == 0 => Slipping {
+                    matrix: &columns.delassus,
+                    loads,
+                    holds,
+                    coefficients,
+                }
+                .efforts(&accelerations, &shares)
+                .map_err(|refusal| refused(refusal, list, setting.saddle.time))?,
+                None if round == 0 && shares.iter().any(|share| *share != S::zero()) => {
+                    held(&factors, &columns.delassus, &accelerations, &shares)
+                }
+                _ => factors.solve(&accelerations).map(|change| -change),
+            };
             columns.add_to(&change, solution);
             for (effort, change) in efforts.iter_mut().zip(change) {
                 *effort = *effort + change;
@@ -63,8 +152,29 @@ where
                 tracked.update(|status| status.effort = effort);
             }
         });
+        if let Some(loads) = loads {
+            for (tracked, load) in list.iter().zip(loads.sizes(&efforts)) {
+                tracked.take_load(load);
+            }
+        }
     }
     Ok(())
+}
+
+impl<S: Real, M: Mechanism> Tracked<S, M> {
+    /// Whether its effort asks for its load, or its capacity, where efforts are wanted.
+    pub(crate) fn asks_for_load(&self, is_wanted: bool) -> bool {
+        let sticks = is_wanted && self.mode() == InteractionMode::Sticking;
+        self.slips_by_load() || sticks && self.bearing().is_some()
+    }
+
+    /// Leaves the capacity by a load.
+    pub(super) fn take_load(&self, load: S) {
+        if let Some(friction) = self.friction() {
+            let capacity = friction.at_rest() * load;
+            self.update(|status| status.capacity = capacity);
+        }
+    }
 }
 
 /// What brings back what is held, to where it is held and to rest: changes of velocities, and of

@@ -5,10 +5,12 @@ use core::marker::PhantomData;
 
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::mechanism::handle::JointHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
+use crate::nonsmooth::bearing::{Bearing, HasBearing};
 use crate::nonsmooth::place::{At, Plane};
-use crate::nonsmooth::quantity::{JointQuantity, Quantity};
+use crate::nonsmooth::quantity::{JointQuantity, JointReading, Quantity};
 
 /// What holds a quantity of a mechanism by turns, and lets it go by turns: a limit, dry friction, a
 /// brake or a clutch. For [`Simulation::interactions`](crate::Simulation::interactions), see
@@ -66,13 +68,15 @@ pub(crate) enum Rest<S> {
 /// Dry friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Friction<S> {
-    /// The largest effort while it slides.
+    /// The largest effort while it slides; over the load of its bearing, where it has one.
     pub(crate) capacity: S,
     /// The largest effort while it sticks, where it is another.
     pub(crate) stiction: Option<S>,
     /// The rate at which the one has fallen towards the other.
     pub(crate) stribeck: Option<S>,
     pub(crate) is_engaged: bool,
+    /// What bears the load that it goes with.
+    pub(crate) bearing: Option<Bearing<S>>,
 }
 
 impl<S: Real> Friction<S> {
@@ -159,7 +163,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         Self::new(quantity, Law::Limits(limits))
     }
 
-    /// The least distance (m) of a point from the plane of [`Interaction::contact`].
+    /// The least distance (m) of a point from the plane of [`Interaction::contact`]; the radius (m)
+    /// at which a hinge with [`Interaction::friction_by_load`] rubs.
     #[must_use]
     pub fn radius(mut self, radius: S) -> Self {
         match (&mut self.law, &self.quantity) {
@@ -167,6 +172,13 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
                 let [least, _] = &mut limits.bounds;
                 *least = radius;
             }
+            (
+                Law::Friction(Friction {
+                    bearing: Some(bearing),
+                    ..
+                }),
+                Quantity::Joint(JointReading::Angle(_)),
+            ) => bearing.radius = Some(radius),
             _ => self.misplaced = Some("radius"),
         }
         self
@@ -176,11 +188,97 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// an angle, N for a displacement) acts against the rate. While it sticks, it has whatever
     /// effort up to that keeps it.
     ///
-    /// The capacity is known: it does not depend on the load of the joint. Friction of a finite
-    /// capacity gives no impulse.
+    /// The capacity is known: it does not depend on the load of the joint, see
+    /// [`Interaction::friction_by_load`]. Friction of a finite capacity gives no impulse.
     #[must_use]
     pub fn friction(quantity: JointQuantity<M>, capacity: S) -> Self {
         Self::dry(Quantity::Joint(quantity.reading), capacity)
+    }
+
+    /// Dry friction of a slide or a hinge, whose capacity is a coefficient times the load of the
+    /// joint at the same instant (Flores, *Concepts and Formulations for Spatial Multibody
+    /// Dynamics*, 2015; Haug, *Simulation of friction and stiction in multibody dynamics model
+    /// problems*, 2018). `coefficient` is Coulomb's `mu`; [`Interaction::stiction`] and
+    /// [`Interaction::stribeck`] are of coefficients as well.
+    ///
+    /// - Of a slide the capacity (N) is `mu |F|`, with the part `F` of the reaction across the
+    ///   axis.
+    /// - Of a hinge it is `mu r |F|` (N m). It needs the [`Interaction::radius`] `r`. The force
+    ///   along the axis does not count.
+    /// - Moments do not count, unless the bearing has a length: [`Interaction::guide`].
+    ///
+    /// The load depends on the friction, so both are solved together. While it slides, an effort
+    /// that does not exist or is not unique is refused ([`Fault::NoUniqueFriction`], Painleve's
+    /// paradox). What can stick sticks. A joint whose reaction is not determined is refused
+    /// ([`Fault::LoadNotUnique`]).
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// /// A block of 2 kg on a plane that is inclined by 3 in 4.
+    /// #[derive(Mechanism)]
+    /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// struct Incline {
+    ///     #[body(mass = 2.0, inertia = [0.1, 0.1, 0.1])]
+    ///     block: Body,
+    ///     #[joint(between = [ground, block], point = [0.0, 0.0, 0.0], axis = [0.8, 0.0, -0.6])]
+    ///     slide: Prismatic,
+    /// }
+    /// let (incline, h) = (Incline::default(), Incline::HANDLES);
+    /// let report = incline
+    ///     .simulation(StandardLagrange, DormandPrince::default())
+    ///     .interactions([Interaction::friction_by_load(h.slide, 0.5)])
+    ///     .run(0.0..=1.0, every(0.1), |_| ())?;
+    /// // g (sin - mu cos) = 9.81 (0.6 - 0.5 0.8)
+    /// let view = incline.view(1.0, &report.state)?;
+    /// assert!((view.displacement_rate(h.slide) - 1.962).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// A joint with more than one motion in its bearing is refused by the compiler:
+    ///
+    /// ```compile_fail,E0277
+    /// # use holonom::prelude::*;
+    /// # #[derive(Mechanism)]
+    /// # struct Sleeve {
+    /// #     #[body(mass = 2.0, inertia = [0.1, 0.1, 0.1])]
+    /// #     shaft: Body,
+    /// #     #[joint(between = [ground, shaft], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    /// #     sleeve: Cylindrical,
+    /// # }
+    /// let friction = Interaction::<f64, _>::friction_by_load(Sleeve::HANDLES.sleeve, 0.5);
+    /// ```
+    #[must_use]
+    pub fn friction_by_load<J: HasBearing>(joint: JointHandle<M, J>, coefficient: S) -> Self {
+        let reading = if J::TURNS {
+            JointReading::Angle(joint.index())
+        } else {
+            JointReading::Displacement(joint.index())
+        };
+        Self::dry(Quantity::Joint(reading), coefficient).with_friction("load", |friction| {
+            friction.bearing = Some(Bearing {
+                radius: None,
+                half_length: None,
+            });
+        })
+    }
+
+    /// The half length (m) of the guide of a slide, or of the bearing of a hinge, with
+    /// [`Interaction::friction_by_load`]. The middle is the joint's point on the second body, on
+    /// the first one where the second is the ground.
+    ///
+    /// Two forces across the axis, at both ends, then carry the reaction with its moment across the
+    /// axis, and the capacity is the coefficient times the sum of their sizes. A moment about the
+    /// axis of a slide does not count.
+    #[must_use]
+    pub fn guide(mut self, half_length: S) -> Self {
+        match &mut self.law {
+            Law::Friction(Friction {
+                bearing: Some(bearing),
+                ..
+            }) => bearing.half_length = Some(half_length),
+            _ => self.misplaced = Some("guide"),
+        }
+        self
     }
 
     /// A brake on a quantity: [`Interaction::friction`] that handlers engage and release,
@@ -216,6 +314,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
             stiction: None,
             stribeck: None,
             is_engaged: true,
+            bearing: None,
         };
         Self::new(quantity, Law::Friction(friction))
     }
@@ -277,6 +376,38 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         self.quantity.name::<M>()
     }
 
+    /// Refuses settings of friction by load, and a joint whose load is not determined.
+    fn check_bearing(&self, friction: &Friction<S>, bearing: &Bearing<S>) -> Result<(), Fault> {
+        let joint = self.name();
+        let refuse = |setting: &'static str, value: S| {
+            Err(Fault::InteractionSetting {
+                joint,
+                setting,
+                value: value.to_f64(),
+            })
+        };
+        let Quantity::Joint(reading) = self.quantity else {
+            return Err(Fault::LoadNotUnique { joint });
+        };
+        let info = M::REPORT.joints.get(reading.joint());
+        if info.is_none_or(|info| !info.undetermined.is_empty()) {
+            return Err(Fault::LoadNotUnique { joint });
+        }
+        if !friction.at_rest().is_finite() {
+            return refuse("coefficient", friction.at_rest());
+        }
+        let is_length = |length: S| length > S::zero() && length.is_finite();
+        let turns = matches!(reading, JointReading::Angle(_));
+        let radius = bearing.radius.unwrap_or(S::zero());
+        if turns && !is_length(radius) {
+            return refuse("radius", radius);
+        }
+        match bearing.half_length {
+            Some(half_length) if !is_length(half_length) => refuse("guide", half_length),
+            _ => Ok(()),
+        }
+    }
+
     /// Refuses settings that are not acceptable.
     pub(crate) fn check(&self) -> Result<(), Fault> {
         let joint = self.name();
@@ -323,6 +454,9 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
                     && !(rate > zero && rate.is_finite())
                 {
                     return refuse("stribeck", rate);
+                }
+                if let Some(bearing) = &friction.bearing {
+                    self.check_bearing(&friction, bearing)?;
                 }
                 if let Quantity::Difference(_, _, ratio) = self.quantity
                     && !ratio.is_finite()

@@ -13,21 +13,30 @@
 //! `choice.rs` modes. `interaction.rs` is what a user writes, `status.rs` what a run knows of it.
 //!
 //! `described.rs` has the limits of a description. `remembered.rs` hands their statuses to
-//! checkpoints. `turning.rs` counts the turns of an angle that has limits.
+//! checkpoints.
 //!
-//! The reasons are in `docs/decisions/027-interactions.md`.
+//! Friction by the load of its joint: `bearing.rs` reads the load, `loads.rs` has it as a function
+//! of efforts, `slipping.rs` solves for what slides, `capacities.rs` for what may stick.
+//!
+//! `turning.rs` counts the turns of an angle that has limits.
+//!
+//! The reasons are in `docs/decisions/027-interactions.md` and `032-friction-by-load.md`.
 
+pub(crate) mod bearing;
 mod box_problem;
+mod capacities;
 mod choice;
 pub(crate) mod columns;
 pub(crate) mod described;
 mod efforts;
 pub(crate) mod impulse;
 pub(crate) mod interaction;
+pub(crate) mod loads;
 pub(crate) mod place;
 pub(crate) mod quantity;
 mod remembered;
 pub(crate) mod scene;
+mod slipping;
 pub(crate) mod status;
 mod switch;
 pub(crate) mod task;

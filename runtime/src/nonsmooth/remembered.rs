@@ -41,6 +41,8 @@ impl<S: Real> Status<S> {
         let numbers = [
             &mut self.held,
             &mut self.effort,
+            &mut self.share,
+            &mut self.capacity,
             &mut self.fastest,
             &mut self.largest,
         ];

@@ -5,6 +5,7 @@ use core::cell::Cell;
 use crate::integrate::Memory;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::bearing::Bearing;
 use crate::nonsmooth::interaction::{Interaction, Law};
 use crate::nonsmooth::scene::Scene;
 
@@ -92,6 +93,10 @@ pub(crate) struct Status<S> {
     pub(crate) held: S,
     /// The effort when it was last asked for.
     pub(crate) effort: S,
+    /// The effort with which the mode began.
+    pub(crate) share: S,
+    /// The largest effort while it sticks, by the load when that was last asked for.
+    pub(crate) capacity: S,
     /// The last reading of the condition.
     pub(crate) reading: S,
     /// It has left its zero.
@@ -147,6 +152,14 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         self.status.set(status);
     }
 
+    /// What bears the load that its friction goes with.
+    pub(crate) fn bearing(&self) -> Option<&Bearing<S>> {
+        match &self.interaction.law {
+            Law::Friction(friction) => friction.bearing.as_ref(),
+            Law::Limits(_) => None,
+        }
+    }
+
     /// The mode.
     pub(crate) fn mode(&self) -> InteractionMode {
         self.status.get().mode
@@ -167,7 +180,10 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             (InteractionMode::AtLower, _) => status.effort,
             (InteractionMode::AtUpper, _) => -status.effort,
             (InteractionMode::Sticking, Law::Friction(friction)) => {
-                let capacity = friction.at_rest();
+                let capacity = match friction.bearing {
+                    Some(_) => status.capacity,
+                    None => friction.at_rest(),
+                };
                 if capacity.is_finite() {
                     capacity - status.effort.abs()
                 } else {
@@ -190,6 +206,8 @@ impl<S: Real> Status<S> {
             is_asked: false,
             held: S::zero(),
             effort: S::zero(),
+            share: S::zero(),
+            capacity: S::zero(),
             reading: S::zero(),
             has_left: true,
             band: S::zero(),

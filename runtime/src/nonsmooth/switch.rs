@@ -323,7 +323,10 @@ where
 
 /// No modes fit together.
 #[cold]
-fn no_mode<S, M, F, C>(setting: &Setting<'_, S, M, F, C>, tracked: &Tracked<S, M>) -> Fault
+pub(super) fn no_mode<S, M, F, C>(
+    setting: &Setting<'_, S, M, F, C>,
+    tracked: &Tracked<S, M>,
+) -> Fault
 where
     S: Real,
     M: Mechanism,

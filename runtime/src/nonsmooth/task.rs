@@ -6,6 +6,7 @@ use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::columns::Setting;
+use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::{choice, efforts, switch};
 
@@ -19,13 +20,26 @@ pub enum Task<'t, S: Real, M: Mechanism, C: Coordinates<M>> {
     Correct([&'t mut C::Velocities<S>; 2]),
     /// Impulses, as changes of velocities, and whether a handler has moved the mechanism.
     Strike(&'t mut C::Velocities<S>, bool),
-    /// The modes that follow, from accelerations without interactions.
-    Choose(&'t C::Velocities<S>),
+    /// The modes that follow, from the solution without interactions.
+    Choose(&'t Solution<S, M, C>),
+}
+
+impl<S: Real, M: Mechanism, C: Coordinates<M>> Task<'_, S, M, C> {
+    /// Whether the reactions of joints are asked for.
+    pub(crate) fn asks_for_loads(&self, list: &[Tracked<S, M>]) -> bool {
+        let mut list = list.iter();
+        match self {
+            Self::Complete(_, is_wanted) => list.any(|tracked| tracked.asks_for_load(*is_wanted)),
+            Self::Choose(_) => list.any(|tracked| tracked.bearing().is_some()),
+            Self::Correct(_) | Self::Strike(..) => false,
+        }
+    }
 }
 
 /// Does it.
 pub(crate) fn perform<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
+    reactions: Option<Reactions<'_, S, M, F>>,
     list: &[Tracked<S, M>; K],
     task: Task<'_, S, M, C>,
 ) -> Result<(), Fault>
@@ -37,10 +51,10 @@ where
 {
     match task {
         Task::Complete(solution, is_wanted) => {
-            efforts::complete(setting, list, solution, is_wanted)
+            efforts::complete(setting, reactions, list, (solution, is_wanted))
         }
         Task::Correct(changes) => efforts::corrections(setting, list, changes),
         Task::Strike(change, is_moved) => switch::impulses(setting, list, is_moved, change),
-        Task::Choose(accelerations) => choice::modes(setting, list, accelerations),
+        Task::Choose(solution) => choice::modes(setting, reactions, list, solution),
     }
 }

@@ -52,6 +52,7 @@ pub(crate) mod within;
 #[cfg(feature = "serde")]
 mod written;
 
+pub use crate::nonsmooth::bearing::HasBearing;
 pub use crate::nonsmooth::described::Limited;
 pub use crate::nonsmooth::interaction::Interaction;
 pub use crate::nonsmooth::place::Plane;

@@ -43,7 +43,7 @@ struct Mill {
     rail: Prismatic,
 }
 
-const INTERACTIONS: usize = 5;
+const INTERACTIONS: usize = 6;
 
 type Forces = Interacting<f64, Mill, NoForces, INTERACTIONS>;
 
@@ -67,6 +67,7 @@ fn interactions(mill: &Mill) -> [Interaction<f64, Mill>; INTERACTIONS] {
             .stribeck(0.5),
         Interaction::contact(h.ball, Plane::on_ground([0.0; 3], [0.0, 0.0, 1.0])).restitution(0.7),
         Interaction::brake(h.shaft.angle(), f64::INFINITY).released(),
+        Interaction::friction_by_load(h.pin, 0.3).radius(0.01),
     ]
 }
 

@@ -328,6 +328,7 @@ where
     /// - [`Fault::InteractionSetting`] and [`Fault::MisplacedSetting`] of what is not acceptable.
     /// - [`Fault::BeyondLimit`] of a start or a handler.
     /// - [`Fault::NoMode`] and [`Fault::EndlessModes`] where no modes are found.
+    /// - [`Fault::NoUniqueFriction`] and [`Fault::LoadNotUnique`] of friction by load.
     /// - [`Fault::StepTooShort`] where the turns of an angle with limits cannot be followed.
     /// - [`Fault::NoInteractions`] with [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     /// - [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
