@@ -72,6 +72,10 @@ where
         if !is_whole {
             return Err(refused(CheckpointFault::Happenings));
         }
+        if let Some(hybrid) = self.hybrid.take() {
+            self.hold(&hybrid.switching);
+            self.hybrid = Some(hybrid);
+        }
         let progress = &past.progress;
         self.steps = progress.steps;
         self.counts = progress.counts;

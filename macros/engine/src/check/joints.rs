@@ -13,6 +13,7 @@ use super::number::{AT_LIKES, Numbers, elements};
 use super::pairs::Pairs;
 use super::parts::Part;
 use super::points::{NamedPoints, position_of};
+use super::switches::no_switches;
 use crate::diag::{Faults, code, list};
 use crate::model::number::literals;
 use crate::model::{
@@ -136,7 +137,7 @@ impl JointChecker<'_> {
         }
         let is_cut = self.cut(joint, &mut pairs, faults);
         let mut bindings = Vec::new();
-        for parameter in &joint.parameters {
+        for (place, parameter) in joint.parameters.iter().enumerate() {
             let key = parameter.name.to_string();
             numbers.field = name.clone();
             numbers.attribute.clone_from(&key);
@@ -168,6 +169,7 @@ impl JointChecker<'_> {
                         arguments,
                         numbers,
                         readings: None,
+                        no_switches: no_switches(joint, place),
                     }
                     .read(expr, faults);
                     numbers.words.clear();

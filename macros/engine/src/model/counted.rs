@@ -73,15 +73,5 @@ fn changes_by(term: &Term, turn: Turn, element: &Element) -> bool {
 
 /// Whether a law has an argument in it.
 fn takes(law: &LawTerm, argument: usize) -> bool {
-    match law {
-        LawTerm::Number(_)
-        | LawTerm::Time
-        | LawTerm::Setpoint(_)
-        | LawTerm::State(_)
-        | LawTerm::Reading { .. } => false,
-        LawTerm::Argument(place) => *place == argument,
-        LawTerm::Sum(terms) => terms.iter().any(|(_, term)| takes(term, argument)),
-        LawTerm::Product(a, b) => takes(a, argument) || takes(b, argument),
-        LawTerm::Function(_, inner) => takes(inner, argument),
-    }
+    law.has(&|term| matches!(term, LawTerm::Argument(place) if *place == argument))
 }

@@ -11,6 +11,7 @@ use super::name::Name;
 use super::number::{Number, Symbol, literals};
 use super::rank::Independence;
 use super::shape::Shape;
+use super::switch::{Switch, Switching};
 use super::value::{RunTimeValue, Spline, first_further};
 
 /// Whether a body has an orientation.
@@ -110,6 +111,10 @@ pub enum LawTerm {
     },
     /// An input with its first and second derivative.
     Setpoint([Number; 3]),
+    /// On which side of its zero an expression is: 1, -1, or 0 at zero.
+    Side(Box<Switching>),
+    /// The first law where an expression is not negative, else the second.
+    Select(Box<Switching>, Box<[LawTerm; 2]>),
 }
 
 impl LawTerm {
@@ -122,6 +127,10 @@ impl LawTerm {
             Self::Sum(terms) => Extent::sum(terms.iter().map(|(_, term)| term.extent(arguments))),
             Self::Product(a, b) => a.extent(arguments).product(b.extent(arguments)),
             Self::Function(_, inner) => inner.extent(arguments).function(),
+            Self::Side(_) | Self::Select(..) => {
+                let parts = self.parts().into_iter();
+                Extent::sum(parts.map(|part| part.extent(arguments))).function()
+            }
             Self::Reading { term, .. } => term
                 .extent(&|_: usize, arguments: &[Extent]| Extent::sum(arguments.iter().copied())),
         }
@@ -254,6 +263,8 @@ pub struct Model {
     pub symbols: Vec<Symbol>,
     /// The splines that laws read.
     pub splines: Vec<Spline>,
+    /// The expressions whose signs decide in laws, each behind those in it.
+    pub switches: Vec<Switch>,
     /// Whether the equations depend on each other.
     pub independence: Independence,
     /// By what the bodies are described.
@@ -309,9 +320,15 @@ impl Model {
         })
     }
 
-    /// The number of parameters.
+    /// The number of parameters: the values, their further numbers, and the sides of switches.
     #[must_use]
     pub fn parameters(&self) -> usize {
+        self.first_side() + self.switches.len()
+    }
+
+    /// The place among the parameters of the first side of a switch.
+    #[must_use]
+    pub fn first_side(&self) -> usize {
         first_further(&self.values, self.values.len())
     }
 
@@ -363,6 +380,7 @@ impl Model {
             joints: vec![joint],
             forces: Vec::new(),
             states: Vec::new(),
+            switches: Vec::new(),
             ..self.clone()
         }
     }

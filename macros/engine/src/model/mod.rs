@@ -12,6 +12,7 @@ pub mod name;
 pub mod number;
 pub mod rank;
 pub mod shape;
+pub mod switch;
 pub mod value;
 
 pub use asked::Asked;
@@ -28,4 +29,5 @@ pub use name::Name;
 pub use number::{Number, Symbol};
 pub use rank::{Contradiction, Independence, Rank, Redundant, RedundantRow};
 pub use shape::{Shape, ShapeKind};
+pub use switch::{Switch, Switching};
 pub use value::{RunTimeValue, Spline, Table, ValueKind, first_further};

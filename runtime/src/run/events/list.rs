@@ -11,6 +11,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::run::checkpoint::Checkpoint;
 use crate::run::events::changes::Changes;
 use crate::run::events::context::Event;
+use crate::run::events::switching::Switching;
 use crate::run::events::watch::{Period, Watch, is_same};
 use crate::run::output::IntoFlow;
 use crate::run::past::Past;
@@ -200,6 +201,8 @@ pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
     pub(super) is_switched: bool,
     /// How often modes of interactions changed at once.
     pub(super) changes: Changes<S>,
+    /// The laws that switch.
+    pub(crate) switching: Switching<S, M>,
 }
 
 impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
@@ -249,6 +252,7 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             is_found: false,
             is_switched: false,
             changes: Changes::none(),
+            switching: Switching::new(),
         })
     }
 
@@ -265,10 +269,11 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
 
     /// Hands over what events and controllers remember.
     pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>) {
-        if self.watches {
+        if self.watches || Switching::<S, M>::ARE_THERE {
             memory.number(&mut self.longest);
             memory.flag(&mut self.is_fresh);
         }
+        self.switching.remember(memory);
         let _ = self.list.each(&mut |happening| {
             if let Some(watch) = happening.watch() {
                 watch.remember(memory);
