@@ -77,3 +77,20 @@ fn what_is_unknown_is_told() {
     assert!(Interval::constant(0.0).sin().is_zero());
     assert!(!unknown.excludes_zero() && Interval::new(1.0, 2.0).is_beside_zero(1.0));
 }
+
+#[test]
+fn what_is_zero_is_enclosed_by_zero() {
+    // A smooth step before its start, as kernels write it.
+    let step = |time: Forward<Interval, 1>| {
+        let (zero, one) = (Forward::constant(0.0), Forward::constant(1.0));
+        let x = time - Forward::constant(1.25);
+        let u = x.select(zero, zero, one.select(x, one, x));
+        let inner = u.fused(Forward::constant(6.0), Forward::constant(-15.0));
+        let inner = u.fused(inner, Forward::constant(10.0));
+        u * u * u * inner
+    };
+    let before = Forward::new(Interval::new(0.0, 1.0), [Interval::constant(1.0)]);
+    assert!(step(before).value().is_zero(), "{:?}", step(before));
+    let later = Forward::new(Interval::new(1.0, 1.5), [Interval::constant(1.0)]);
+    assert!(!step(later).value().is_zero());
+}

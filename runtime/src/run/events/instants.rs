@@ -20,6 +20,9 @@ type Enclosed = Forward<Interval, 1>;
 /// Stretches shorter than so many units in the last place of the times of a search are not halved.
 const SHORTEST: f64 = 8.0;
 
+/// Twice what a root is off at the most, in units in the last place of the end of its stretch.
+const ROUGH: f64 = 16.0;
+
 /// More stretches than any law should need.
 const STRETCHES: usize = 100_000;
 
@@ -63,6 +66,10 @@ impl<M: Mechanism> Instants<M> {
         if here != 0.0 {
             return here.signum();
         }
+        let [value, _] = self.on(switch, from, from + shortest(from, until));
+        if value.is_zero() {
+            return 0.0;
+        }
         let halvings = (0..=HALVINGS).rev();
         let parts = halvings.map(|k| (until - from) / (1_u64 << k) as f64);
         let mut seen = parts.map(|part| self.at(switch, from + part));
@@ -79,7 +86,7 @@ impl<M: Mechanism> Instants<M> {
         (from, until): (f64, f64),
     ) -> Result<Option<f64>, Fault> {
         let (mut at, mut width) = (from, until - from);
-        let shortest = SHORTEST * f64::EPSILON * from.abs().max(until.abs());
+        let shortest = shortest(from, until);
         for _ in 0..STRETCHES {
             if at >= until {
                 return Ok(None);
@@ -107,7 +114,10 @@ impl<M: Mechanism> Instants<M> {
                     }
                 } else if -side * reading > 0.0 {
                     let read = |time| Ok::<f64, Fault>(upwards(time));
-                    return locate((at, end), upwards(end), read, MOST).map(Some);
+                    let root = locate((at, end), upwards(end), read, MOST)?;
+                    // Once more, to the digits of the root instead of those of the end.
+                    let near = at.max(root - ROUGH * f64::EPSILON * end.abs());
+                    return locate((near, root), upwards(root), read, MOST).map(Some);
                 }
             } else if !stays {
                 width = 0.5 * (end - at);
@@ -118,6 +128,11 @@ impl<M: Mechanism> Instants<M> {
         }
         Err(undecided(switch, at))
     }
+}
+
+/// The length (s) of a stretch that is not halved.
+fn shortest(from: f64, until: f64) -> f64 {
+    SHORTEST * f64::EPSILON * from.abs().max(until.abs())
 }
 
 /// The expression of a switch over any numbers.
