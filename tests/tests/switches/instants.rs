@@ -1,6 +1,5 @@
 //! Switches by the time alone, which no step passes over, however long it is.
 
-
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::spline::Spline;
@@ -90,7 +89,10 @@ where
     let speed = Pulse::velocity(&report.state, Pulse::HANDLES.bead).x;
     // Times of this size have so many digits.
     let digits = 8.0 * f64::EPSILON * start / width;
-    assert!((speed - 1.0).abs() < digits + 1e-12, "{speed} at {start} for {width}");
+    assert!(
+        (speed - 1.0).abs() < digits + 1e-12,
+        "{speed} at {start} for {width}"
+    );
 }
 
 #[test]
@@ -170,7 +172,10 @@ fn windows_of_time_are_integrals() {
     let see = |state: &StateOf<Windows>| {
         for (number, (of, wanted)) in wanted.into_iter().enumerate() {
             let found = Windows::state_value(state, of);
-            assert!((found - wanted).abs() < 1e-9, "{number}: {found} and {wanted}");
+            assert!(
+                (found - wanted).abs() < 1e-9,
+                "{number}: {found} and {wanted}"
+            );
         }
     };
     let tight = DormandPrince::new(tight());

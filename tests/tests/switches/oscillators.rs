@@ -109,7 +109,11 @@ fn with_play(t: f64) -> f64 {
     let (w, size) = (STIFFNESS.sqrt(), 1.0 - PLAY);
     let (touching, coasting) = (FRAC_PI_2 / w, 2.0 * PLAY / (size * w));
     let half = 2.0 * touching + coasting;
-    let sign = if (t / half).rem_euclid(2.0) < 1.0 { 1.0 } else { -1.0 };
+    let sign = if (t / half).rem_euclid(2.0) < 1.0 {
+        1.0
+    } else {
+        -1.0
+    };
     let phase = t.rem_euclid(half);
     sign * if phase < touching {
         PLAY + size * (w * phase).cos()
@@ -195,8 +199,20 @@ fn a_controller_of_limited_moment_swings_in_time() {
         let mut see = |sample: &Sample<'_, f64, Limited>| {
             ends.push([sample.angle(h.axle), sample.angle_rate(h.axle)]);
         };
-        run::<_, _, Relative>(&mechanism, DormandPrince::new(tight()), end, every(reports), &mut see);
-        run::<_, _, Absolute>(&mechanism, DormandPrince::new(tight()), end, every(reports), &mut see);
+        run::<_, _, Relative>(
+            &mechanism,
+            DormandPrince::new(tight()),
+            end,
+            every(reports),
+            &mut see,
+        );
+        run::<_, _, Absolute>(
+            &mechanism,
+            DormandPrince::new(tight()),
+            end,
+            every(reports),
+            &mut see,
+        );
         ends
     };
     let wrapped = |angle: f64| (angle + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;

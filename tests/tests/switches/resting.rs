@@ -80,7 +80,11 @@ fn friction_that_is_overcome_is_right_from_rest_on() {
     for (speed, pull) in [(0.0, 0.8), (0.0, -0.8), (-1.0, 0.8), (1.0, -2.0)] {
         let (mechanism, h) = (dry(speed, pull), Dry::HANDLES);
         // Against the motion until it turns back.
-        let first = if speed == 0.0 { 0.0 } else { pull + 0.5 * pull.signum() };
+        let first = if speed == 0.0 {
+            0.0
+        } else {
+            pull + 0.5 * pull.signum()
+        };
         let turn = if speed == 0.0 { 0.0 } else { -speed / first };
         let place = 0.5 * speed * turn;
         let rest = pull - 0.5 * pull.signum();
@@ -94,7 +98,13 @@ fn friction_that_is_overcome_is_right_from_rest_on() {
             let x = sample.pose(h.slider).position.x;
             assert!((x - wanted).abs() < 1e-10, "{x} and {wanted} at {t}");
         };
-        run::<_, _, Relative>(&mechanism, DormandPrince::default(), 4.0, every(0.1), &mut see);
+        run::<_, _, Relative>(
+            &mechanism,
+            DormandPrince::default(),
+            4.0,
+            every(0.1),
+            &mut see,
+        );
         run::<_, _, Absolute>(&mechanism, Rk4::every(0.01), 4.0, every(0.1), &mut see);
     }
 }
@@ -106,7 +116,13 @@ fn what_nothing_moves_rests_at_its_switch() {
         assert_eq!(sample.pose(h.slider).position.x, 0.0);
         assert_eq!(sample.power(), 0.0);
     };
-    run::<_, _, Relative>(&mechanism, DormandPrince::default(), 4.0, every(0.1), &mut see);
+    run::<_, _, Relative>(
+        &mechanism,
+        DormandPrince::default(),
+        4.0,
+        every(0.1),
+        &mut see,
+    );
     run::<_, _, Absolute>(&mechanism, Rk4::every(0.01), 4.0, every(0.1), &mut see);
 }
 
@@ -164,7 +180,9 @@ fn a_start_at_a_switch_takes_the_side_that_the_motion_takes() {
         let mechanism = Unstable::new(push).expect("acceptable");
         let force = push + if push == 0.0 { 0.0 } else { push.signum() };
         let report = run::<_, _, Relative>(&mechanism, Rk4::every(0.01), 2.0, every(2.0), |_| ());
-        let x = Unstable::pose(&report.state, Unstable::HANDLES.slider).position.x;
+        let x = Unstable::pose(&report.state, Unstable::HANDLES.slider)
+            .position
+            .x;
         assert!((x - 2.0 * force).abs() < 1e-10, "{x} with {push}");
     }
 }

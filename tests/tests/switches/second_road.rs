@@ -98,15 +98,31 @@ where
         let [turning, bending] = [(); 2].map(|()| 3.0 * random(&mut seed));
         let time = 1.5 + random(&mut seed);
         let mut state = switching.described_state().expect("sound");
-        switching.set_angle(&mut state, h.shoulder, shoulder).expect("free");
-        switching.set_angle(&mut state, h.elbow, elbow).expect("free");
-        switching.set_angle_rate(&mut state, h.shoulder, turning).expect("free");
-        switching.set_angle_rate(&mut state, h.elbow, bending).expect("free");
+        switching
+            .set_angle(&mut state, h.shoulder, shoulder)
+            .expect("free");
+        switching
+            .set_angle(&mut state, h.elbow, elbow)
+            .expect("free");
+        switching
+            .set_angle_rate(&mut state, h.shoulder, turning)
+            .expect("free");
+        switching
+            .set_angle_rate(&mut state, h.elbow, bending)
+            .expect("free");
         let mut same = plain.described_state().expect("sound");
-        plain.set_angle(&mut same, of_plain.shoulder, shoulder).expect("free");
-        plain.set_angle(&mut same, of_plain.elbow, elbow).expect("free");
-        plain.set_angle_rate(&mut same, of_plain.shoulder, turning).expect("free");
-        plain.set_angle_rate(&mut same, of_plain.elbow, bending).expect("free");
+        plain
+            .set_angle(&mut same, of_plain.shoulder, shoulder)
+            .expect("free");
+        plain
+            .set_angle(&mut same, of_plain.elbow, elbow)
+            .expect("free");
+        plain
+            .set_angle_rate(&mut same, of_plain.shoulder, turning)
+            .expect("free");
+        plain
+            .set_angle_rate(&mut same, of_plain.elbow, bending)
+            .expect("free");
         let accelerations = own.evaluate_bodies(time, &state).expect("sound").rates;
         let wanted = other.evaluate_bodies(time, &same).expect("sound").rates;
         let both = accelerations.velocities().iter().zip(wanted.velocities());
@@ -117,7 +133,8 @@ where
         let mut moved = own.state_of(&state).expect("sound");
         Rk4.step(&mut own, time, &mut moved, STEP).expect("sound");
         let mut wanted = other.state_of(&same).expect("sound");
-        Rk4.step(&mut other, time, &mut wanted, STEP).expect("sound");
+        Rk4.step(&mut other, time, &mut wanted, STEP)
+            .expect("sound");
         let (moved, wanted) = (own.bodies(&moved), other.bodies(&wanted));
         let both = moved.velocities().iter().zip(wanted.velocities());
         for (found, wanted) in both {
@@ -134,8 +151,14 @@ where
 
 #[test]
 fn laws_are_those_of_closures() {
-    for (worst, counts) in [compare::<Absolute, Absolute>(), compare::<Relative, Relative>()] {
+    for (worst, counts) in [
+        compare::<Absolute, Absolute>(),
+        compare::<Relative, Relative>(),
+    ] {
         assert!(worst < 1e-11, "{worst:e}");
-        assert!(counts.iter().all(|&count| count > 200 && count < 1800), "{counts:?}");
+        assert!(
+            counts.iter().all(|&count| count > 200 && count < 1800),
+            "{counts:?}"
+        );
     }
 }

@@ -163,7 +163,10 @@ impl LawReader<'_, '_, '_> {
         let Some(function) = function else {
             let known = self.functions();
             let splines = self.numbers.spline_names();
-            let all = known.iter().copied().chain(splines.iter().map(String::as_str));
+            let all = known
+                .iter()
+                .copied()
+                .chain(splines.iter().map(String::as_str));
             let near = did_you_mean(&name, all);
             faults.at(
                 &call.func,

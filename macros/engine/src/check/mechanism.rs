@@ -264,12 +264,7 @@ fn described<'a>(
     states::tell(&states, &mut elements);
     let points = points.into_iter().map(|(_, point)| point);
     let points: Vec<_> = points.collect::<Option<_>>()?;
-    let switches = switches::switches(
-        (joints.len(), &forces),
-        &definitions,
-        &states,
-        &mut numbers,
-    );
+    let switches = switches::switches((joints.len(), &forces), &definitions, &states, &mut numbers);
     let values = std::mem::take(&mut numbers.values);
     let symbols = std::mem::take(&mut numbers.symbols);
     let splines = std::mem::take(&mut numbers.splines);

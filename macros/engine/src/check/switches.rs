@@ -32,7 +32,29 @@ enum Condition {
     Or(Box<Condition>, Box<Condition>),
 }
 
+/// How often an `if` may repeat one of its laws.
+const COPIES: f64 = 64.0;
+
 impl Condition {
+    /// How often a choice repeats the first law, and the second.
+    fn copies(&self) -> [f64; 2] {
+        match self {
+            Self::Negative(_) => [1.0, 1.0],
+            Self::Not(inner) => {
+                let [first, second] = inner.copies();
+                [second, first]
+            }
+            Self::And(a, b) => {
+                let ([a, not_a], [b, not_b]) = (a.copies(), b.copies());
+                [a * b, a * not_b + not_a]
+            }
+            Self::Or(a, b) => {
+                let ([a, not_a], [b, not_b]) = (a.copies(), b.copies());
+                [a + not_a * b, not_a * not_b]
+            }
+        }
+    }
+
     /// The first law where the condition is met, else the second.
     fn choose(self, first: LawTerm, second: LawTerm) -> LawTerm {
         match self {
@@ -104,7 +126,7 @@ impl LawReader<'_, '_, '_> {
         let (key, name) = (&self.numbers.attribute, &self.numbers.field);
         faults.at(
             at,
-            format!("`{word}` makes no law for `{key}` of `{name}`: {reason}"),
+            format!("`{word}` cannot stand in `{key}` of `{name}`: {reason}"),
         );
         None
     }
@@ -168,7 +190,15 @@ impl LawReader<'_, '_, '_> {
             other => Some(other),
         };
         let otherwise = otherwise.and_then(|otherwise| self.read(otherwise, faults));
-        Some(condition?.choose(then?, otherwise?))
+        let condition = condition?;
+        if condition.copies().iter().any(|&copies| copies > COPIES) {
+            faults.at(
+                &choice.cond,
+                "this condition has too many alternatives; make several forces of it, each with one of its own",
+            );
+            return None;
+        }
+        Some(condition.choose(then?, otherwise?))
     }
 
     fn condition(&mut self, expr: &Expr, faults: &mut Faults) -> Option<Condition> {
@@ -301,8 +331,8 @@ fn add(
         return;
     };
     let takes = of.has(&|term| matches!(term, LawTerm::Argument(_)));
-    let moves = takes
-        || of.has(&|term| matches!(term, LawTerm::State(_) | LawTerm::Reading { .. }));
+    let moves =
+        takes || of.has(&|term| matches!(term, LawTerm::State(_) | LawTerm::Reading { .. }));
     let has_time = of.has(&|term| matches!(term, LawTerm::Time));
     // What no run changes by itself has the side that it has.
     if !moves && !has_time || held(found, arguments, of).is_some() {

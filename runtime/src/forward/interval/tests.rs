@@ -73,7 +73,10 @@ fn what_is_unknown_is_told() {
     assert!((Interval::NONE + unknown).is_none());
     assert!(Interval::NONE.select(unknown, unknown, unknown).is_none());
     assert_eq!(Interval::ALL.sin(), unknown);
-    assert_eq!(Interval::constant(0.0) * Interval::ALL, Interval::constant(0.0));
+    assert_eq!(
+        Interval::constant(0.0) * Interval::ALL,
+        Interval::constant(0.0)
+    );
     assert!(Interval::constant(0.0).sin().is_zero());
     assert!(!unknown.excludes_zero() && Interval::new(1.0, 2.0).is_beside_zero(1.0));
 }

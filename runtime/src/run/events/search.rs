@@ -36,10 +36,8 @@ where
         integration: &mut K,
         (start, near): (S, &M::State<S>),
     ) -> Result<Found<S, M>, Fault> {
-        let switches = Switching::<S, M>::ARE_THERE;
-        let watches = |hybrid: &&mut Hybrid<'_, S, M>| {
-            hybrid.watches || A::INTERACTS || switches
-        };
+        let switches = Switching::<S, M>::watches();
+        let watches = |hybrid: &&mut Hybrid<'_, S, M>| hybrid.watches || A::INTERACTS || switches;
         let Some(hybrid) = self.hybrid.as_mut().filter(watches) else {
             return Ok(None);
         };
@@ -116,7 +114,7 @@ where
             let root = if is_same(root, time) { time } else { root };
             let bodies = self.bodies_at(root)?;
             let longest = hybrid.longest;
-            let mut is_found = A::INTERACTS;
+            let mut is_found = false;
             hybrid.list.each(&mut |happening| {
                 let reading = self.read(happening, root, &bodies)?;
                 let Some(watch) = happening.watch() else {
@@ -127,6 +125,8 @@ where
                 Ok(())
             })?;
             self.take_ends_of_modes(root, &bodies)?;
+            let mut modes = self.dynamics.tracked().iter();
+            is_found |= modes.any(|tracked| tracked.status.get().is_found);
             self.take_switches(hybrid, root, &bodies)?;
             hybrid.is_found = is_found;
             return Ok(Some((root, bodies)));
@@ -170,7 +170,7 @@ where
         before: S,
         (time, bodies): (S, &M::State<S>),
     ) -> Result<Option<S>, Fault> {
-        if !Switching::<S, M>::ARE_THERE {
+        if !Switching::<S, M>::watches() {
             return Ok(None);
         }
         let readings = self.dynamics.switches(time, bodies);
@@ -207,7 +207,7 @@ where
         time: S,
         bodies: &M::State<S>,
     ) -> Result<(), Fault> {
-        if !Switching::<S, M>::ARE_THERE {
+        if !Switching::<S, M>::watches() {
             return Ok(());
         }
         let readings = self.dynamics.switches(time, bodies);

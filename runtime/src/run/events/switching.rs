@@ -29,11 +29,7 @@ pub(crate) fn of<S: Real, M: Mechanism>(array: &M::Parameters<S>, switch: &Switc
 }
 
 /// The same, to be written.
-pub(crate) fn put<S: Real, M: Mechanism>(
-    array: &mut M::Parameters<S>,
-    switch: &Switch,
-    number: S,
-) {
+pub(crate) fn put<S: Real, M: Mechanism>(array: &mut M::Parameters<S>, switch: &Switch, number: S) {
     if let Some(place) = array.as_mut_slice().get_mut(switch.place) {
         *place = number;
     }
@@ -42,6 +38,11 @@ pub(crate) fn put<S: Real, M: Mechanism>(
 impl<S: Real, M: Mechanism> Switching<S, M> {
     /// Whether the mechanism has switches.
     pub(crate) const ARE_THERE: bool = !M::SWITCHES.is_empty();
+
+    /// Whether some read the motion.
+    pub(crate) fn watches() -> bool {
+        Self::of_state().next().is_some()
+    }
 
     /// Nothing is known of them.
     pub(crate) fn new() -> Self {
@@ -55,7 +56,10 @@ impl<S: Real, M: Mechanism> Switching<S, M> {
 
     /// What is known of one.
     pub(crate) fn watch(&self, switch: &Switch) -> Watch<S> {
-        let numbers = self.numbers.each_ref().map(|array| of::<S, M>(array, switch));
+        let numbers = self
+            .numbers
+            .each_ref()
+            .map(|array| of::<S, M>(array, switch));
         Watch::of_numbers(switch.expression, Crossing::Either, numbers)
     }
 

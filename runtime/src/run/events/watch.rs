@@ -316,7 +316,13 @@ impl<S: Real> Watch<S> {
 
     /// The side of a reading that is not at zero.
     pub(crate) fn clear_side(&self, reading: S) -> Option<S> {
-        let side = || if reading > S::zero() { S::one() } else { -S::one() };
+        let side = || {
+            if reading > S::zero() {
+                S::one()
+            } else {
+                -S::one()
+            }
+        };
         (reading.abs() > Self::round_off()).then(side)
     }
 
