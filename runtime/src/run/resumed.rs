@@ -73,7 +73,7 @@ where
             return Err(refused(CheckpointFault::Happenings));
         }
         if let Some(hybrid) = self.hybrid.take() {
-            self.hold(&hybrid.switching);
+            self.hold(&hybrid);
             self.hybrid = Some(hybrid);
         }
         let progress = &past.progress;

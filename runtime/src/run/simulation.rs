@@ -21,6 +21,7 @@ use crate::monitor::Monitor;
 use crate::run::companion::Companion;
 use crate::run::deferred::Deferred;
 use crate::run::events::list::{Happenings, Hybrid, NothingHappens};
+use crate::run::events::switching::Switching;
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
 use crate::run::past::{Past, Plan, Planned};
 use crate::run::post_step::PostStabilisation;
@@ -447,7 +448,11 @@ where
             other => other,
         };
         let hybrid = happenings.map(|list| self.hybrid(list, (start, end), &given, past));
-        let hybrid = hybrid.transpose()?;
+        let mut hybrid = hybrid.transpose()?;
+        let mut switching = (!M::SWITCHES.is_empty()).then(Switching::new);
+        if let Some(hybrid) = &mut hybrid {
+            hybrid.switching = switching.as_mut();
+        }
         check_state::<S, M>(&last_good.1)?;
         if past.is_none() {
             last_good.1 = self.start(&constants, (start, end), last_good.1, described)?;

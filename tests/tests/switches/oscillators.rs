@@ -4,7 +4,9 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::{Adams, AdamsBashforthMoulton4, Bdf, DormandPrince853, RadauIIA, Runs};
+use holonom::{
+    Adams, AdamsBashforthMoulton4, Bdf, DormandPrince853, GeneralizedAlpha, RadauIIA, Runs,
+};
 
 use super::{run, tight};
 
@@ -68,6 +70,7 @@ fn a_force_by_the_sign_of_the_place_is_right_after_ten_periods() {
         bang_bang::<_, Absolute>(DormandPrince::new(tolerance(1e-10))),
         bang_bang::<_, Relative>(DormandPrince853::default()),
         bang_bang::<_, Relative>(AdamsBashforthMoulton4::every(1e-2)),
+        bang_bang::<_, Absolute>(GeneralizedAlpha::every(4e-3)),
     ];
     for (index, error) in exact.iter().enumerate() {
         assert!(*error < 1e-11, "{index}: {exact:?}");

@@ -124,7 +124,7 @@ impl<M: Mechanism> Instants<M> {
                 continue;
             }
             at = end;
-            width = 2.0 * width;
+            width *= 2.0;
         }
         Err(undecided(switch, at))
     }

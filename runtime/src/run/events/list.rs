@@ -201,8 +201,8 @@ pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
     pub(super) is_switched: bool,
     /// How often modes of interactions changed at once.
     pub(super) changes: Changes<S>,
-    /// The laws that switch.
-    pub(crate) switching: Switching<S, M>,
+    /// The laws that switch, where there are any.
+    pub(crate) switching: Option<&'h mut Switching<S, M>>,
 }
 
 impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
@@ -252,7 +252,7 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             is_found: false,
             is_switched: false,
             changes: Changes::none(),
-            switching: Switching::new(),
+            switching: None,
         })
     }
 
@@ -269,11 +269,13 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
 
     /// Hands over what events and controllers remember.
     pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>) {
-        if self.watches || Switching::<S, M>::ARE_THERE {
+        if self.watches || self.switching.is_some() {
             memory.number(&mut self.longest);
             memory.flag(&mut self.is_fresh);
         }
-        self.switching.remember(memory);
+        if let Some(switching) = &mut self.switching {
+            switching.remember(memory);
+        }
         let _ = self.list.each(&mut |happening| {
             if let Some(watch) = happening.watch() {
                 watch.remember(memory);

@@ -103,10 +103,12 @@ where
                     Ok(())
                 })?;
                 self.modes_go_on();
-                hybrid.switching.each(|_, watch| {
-                    watch.go_on();
-                    Ok(())
-                })?;
+                if let Some(switching) = &mut hybrid.switching {
+                    switching.each(|_, watch| {
+                        watch.go_on();
+                        Ok(())
+                    })?;
+                }
                 before = time;
                 continue;
             };
@@ -170,12 +172,13 @@ where
         before: S,
         (time, bodies): (S, &M::State<S>),
     ) -> Result<Option<S>, Fault> {
-        if !Switching::<S, M>::watches() {
+        let switching = hybrid.switching.as_mut();
+        let Some(switching) = switching.filter(|_| Switching::<S, M>::watches()) else {
             return Ok(None);
-        }
+        };
         let readings = self.dynamics.switches(time, bodies);
         let mut first: Option<S> = None;
-        hybrid.switching.each(|switch, watch| {
+        switching.each(|switch, watch| {
             let reading = of::<S, M>(&readings, switch);
             if reading.to_f64().is_nan() {
                 return Err(undecided(switch, time.to_f64()));
@@ -207,13 +210,14 @@ where
         time: S,
         bodies: &M::State<S>,
     ) -> Result<(), Fault> {
-        if !Switching::<S, M>::watches() {
-            return Ok(());
-        }
-        let readings = self.dynamics.switches(time, bodies);
         let longest = hybrid.longest;
+        let switching = hybrid.switching.as_mut();
+        let Some(switching) = switching.filter(|_| Switching::<S, M>::watches()) else {
+            return Ok(());
+        };
+        let readings = self.dynamics.switches(time, bodies);
         let mut is_found = false;
-        hybrid.switching.each(|switch, watch| {
+        switching.each(|switch, watch| {
             let reading = of::<S, M>(&readings, switch);
             watch
                 .take(time, reading, longest)
@@ -221,7 +225,7 @@ where
             is_found |= watch.is_found();
             Ok(())
         })?;
-        hybrid.switching.is_found = is_found;
+        switching.is_found = is_found;
         Ok(())
     }
 

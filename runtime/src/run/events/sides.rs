@@ -46,11 +46,10 @@ where
         time: S,
         state: &M::State<S>,
     ) -> Result<bool, Fault> {
-        if !Switching::<S, M>::ARE_THERE {
+        let Some(switching) = &mut hybrid.switching else {
             return Ok(false);
-        }
+        };
         let readings = self.dynamics.switches(time, state);
-        let switching = &mut hybrid.switching;
         let is_found = core::mem::take(&mut switching.is_found);
         if is_found {
             switching.each(|switch, watch| {
@@ -78,7 +77,7 @@ where
         }
         if is_found || is_due {
             hybrid.is_fresh = true;
-            self.hold(&hybrid.switching);
+            self.hold(hybrid);
         }
         Ok(is_found || is_due)
     }
@@ -92,16 +91,16 @@ where
         state: &M::State<S>,
         is_moved: bool,
     ) -> Result<(), Fault> {
-        if !Switching::<S, M>::ARE_THERE {
+        if hybrid.switching.is_none() {
             return Ok(());
         }
         let mut is_new = is_moved;
         // What an expression holds stands before it, so that a round is enough for most.
         for _ in 0..M::SWITCHES.len() + ROUNDS {
-            self.hold(&hybrid.switching);
+            self.hold(hybrid);
             if !self.stand_once(hybrid, time, state, is_new)? {
                 hybrid.is_fresh = true;
-                self.hold(&hybrid.switching);
+                self.hold(hybrid);
                 return Ok(());
             }
             is_new = false;
@@ -118,13 +117,18 @@ where
         state: &M::State<S>,
         is_moved: bool,
     ) -> Result<bool, Fault> {
+        let bounds = [hybrid.end - time, hybrid.longest];
+        let end = hybrid.end.to_f64();
+        let Some(switching) = &mut hybrid.switching else {
+            return Ok(false);
+        };
         let mut is_changed = false;
         for switch in M::SWITCHES {
-            let mut watch = hybrid.switching.watch(switch);
+            let mut watch = switching.watch(switch);
             let before = watch.side();
             if switch.is_of_time {
                 let instants = Instants::<M>::new(self.dynamics.parameters());
-                let (now, end) = (time.to_f64(), hybrid.end.to_f64());
+                let now = time.to_f64();
                 let reading = instants.at(switch, now);
                 if reading.is_nan() {
                     return Err(undecided(switch, now));
@@ -143,7 +147,7 @@ where
                 if !watch.stays(reading, is_moved) {
                     let side = match watch.clear_side(reading) {
                         Some(side) => side,
-                        None => self.side_of_motion(hybrid, switch, (time, state))?,
+                        None => self.side_of_motion(bounds, switch, (time, state))?,
                     };
                     watch.begin_at(side);
                 }
@@ -153,15 +157,16 @@ where
                 is_changed = true;
                 self.dynamics.hold(switch, watch.side());
             }
-            hybrid.switching.keep(switch, &watch);
+            switching.keep(switch, &watch);
         }
         Ok(is_changed)
     }
 
     /// The side of an expression at its zero by which way the motion goes; 0 where it rests there.
+    /// By what is left of the run (s), and the longest step so far.
     fn side_of_motion(
         &mut self,
-        hybrid: &Hybrid<'_, S, M>,
+        [left, longest]: [S; 2],
         switch: &Switch,
         (time, state): (S, &M::State<S>),
     ) -> Result<S, Fault> {
@@ -171,10 +176,11 @@ where
         let rates = self.dynamics.rates(time, &start)?;
         let mut fastest = S::zero();
         rates.for_each(|rate| fastest = fastest.max(rate.abs()));
-        let mut longest = hybrid.end - time;
-        if hybrid.longest > S::zero() {
-            longest = longest.min(hybrid.longest);
-        }
+        let longest = if longest > S::zero() {
+            left.min(longest)
+        } else {
+            left
+        };
         let mut step = longest;
         if fastest * step > S::constant(LITTLE) {
             step = S::constant(LITTLE).quotient(fastest);
@@ -228,9 +234,11 @@ where
     }
 
     /// The sides as they are kept.
-    pub(crate) fn hold(&mut self, switching: &Switching<S, M>) {
-        for switch in M::SWITCHES {
-            self.dynamics.hold(switch, switching.watch(switch).side());
+    pub(crate) fn hold(&mut self, hybrid: &Hybrid<'_, S, M>) {
+        if let Some(switching) = &hybrid.switching {
+            for switch in M::SWITCHES {
+                self.dynamics.hold(switch, switching.watch(switch).side());
+            }
         }
     }
 
@@ -243,7 +251,10 @@ where
         let Some(mut hybrid) = self.hybrid.take() else {
             return Ok(until);
         };
-        let found = self.next_instant(&mut hybrid.switching, from, until);
+        let found = match &mut hybrid.switching {
+            Some(switching) => self.next_instant(switching, from, until),
+            None => Ok(until),
+        };
         self.hybrid = Some(hybrid);
         found
     }

@@ -1,7 +1,8 @@
 //! What a run remembers of the switches of its mechanism: a [`Watch`] for each.
 //!
 //! There may be any number of them, and nothing is on a heap: each number of a watch is kept in an
-//! array as long as that of the parameters, where the sides of the switches have their places.
+//! array as long as that of the parameters, where the sides of the switches have their places. A run
+//! of a mechanism without switches has none of these arrays.
 
 use crate::error::Fault;
 use crate::integrate::Memory;
@@ -36,9 +37,6 @@ pub(crate) fn put<S: Real, M: Mechanism>(array: &mut M::Parameters<S>, switch: &
 }
 
 impl<S: Real, M: Mechanism> Switching<S, M> {
-    /// Whether the mechanism has switches.
-    pub(crate) const ARE_THERE: bool = !M::SWITCHES.is_empty();
-
     /// Whether some read the motion.
     pub(crate) fn watches() -> bool {
         Self::of_state().next().is_some()
