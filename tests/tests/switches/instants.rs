@@ -128,6 +128,11 @@ struct Windows {
     // Rests at zero, then leaves it.
     #[state(rate = sign(smooth_step(time - 1.25)))]
     late: f64,
+    // Comes to rest at zero.
+    #[state(rate = sign(smooth_step(1.25 - time)))]
+    early: f64,
+    #[state(rate = sign(max(0.0, 2.0 - time)) - sign(max(0.0, time - 2.5)))]
+    two: f64,
     // Passes zero faster and faster.
     #[state(rate = sign(sin(RATE * PI * time * time)))]
     chirp: f64,
@@ -162,6 +167,8 @@ fn windows_of_time_are_integrals() {
         (h.nested, 2.0 - 1.5 + 0.25),
         (h.touched, 3.0),
         (h.late, 1.75),
+        (h.early, 1.25),
+        (h.two, 1.5),
         (h.chirp, chirp),
         (h.jumping, 0.0),
         (h.distance, distance),

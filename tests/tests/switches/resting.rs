@@ -157,6 +157,52 @@ fn a_rest_ends_where_something_pulls() {
     assert!((time - 1.0).abs() < 1e-3, "{time}");
 }
 
+/// A mass on a spring, and how long it was beyond a place, by laws that rest at zero elsewhere.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "both")]
+struct Counted {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], velocity = [1.0, 0.0, 0.0])]
+    slider: Body,
+    #[joint(between = [ground, slider], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    rail: Prismatic,
+    #[force(
+        between = [ground, slider], head = [-90.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0],
+        force = 90.0 - length
+    )]
+    spring: Actuator,
+    #[state(rate = sign(max(0.0, rail.displacement - 0.5)))]
+    beyond: f64,
+    #[state(rate = if max(rail.displacement, 0.5) > 0.5 { 1.0 } else { 0.0 })]
+    same: f64,
+    #[state(rate = max(0.0, rail.displacement - 0.5))]
+    area: f64,
+}
+
+#[test]
+fn laws_that_come_to_rest_at_zero_have_the_value_there() {
+    use core::f64::consts::{PI, TAU};
+    let (mechanism, h) = (Counted::default(), Counted::HANDLES);
+    // sin t > 1/2 from pi / 6 to 5 pi / 6 of every turn.
+    let mut see = |sample: &Sample<'_, f64, Counted>| {
+        let turns = (sample.time() / TAU).floor();
+        let phase = (sample.time() - turns * TAU).clamp(PI / 6.0, 5.0 * PI / 6.0);
+        let time = turns * 2.0 * PI / 3.0 + phase - PI / 6.0;
+        let size = |phase: f64| -phase.cos() - 0.5 * phase;
+        let area = turns * (size(5.0 * PI / 6.0) - size(PI / 6.0)) + size(phase) - size(PI / 6.0);
+        for (of, wanted) in [(h.beyond, time), (h.same, time), (h.area, area)] {
+            let found = sample.state_value(of);
+            assert!(
+                (found - wanted).abs() < 1e-8,
+                "{found} and {wanted} at {}",
+                sample.time()
+            );
+        }
+    };
+    let method = DormandPrince::new(tight());
+    run::<_, _, Relative>(&mechanism, method, 20.0, every(0.1), &mut see);
+    run::<_, _, Absolute>(&mechanism, method, 20.0, every(0.1), &mut see);
+}
+
 /// Away from zero on either side.
 #[derive(Mechanism)]
 #[mechanism(coordinates = "both")]

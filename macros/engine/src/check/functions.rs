@@ -3,7 +3,7 @@
 use syn::{Expr, ExprCall};
 
 use super::expression::{Context, Shaped};
-use super::switches::SWITCHING;
+use super::switching::SWITCHING;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::{ElementKind, Function, ParameterKind, Term, Turn};
 use crate::syntax::ungroup;

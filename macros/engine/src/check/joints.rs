@@ -13,7 +13,7 @@ use super::number::{AT_LIKES, Numbers, elements};
 use super::pairs::Pairs;
 use super::parts::Part;
 use super::points::{NamedPoints, position_of};
-use super::switches::no_switches;
+use super::switching::no_switches;
 use crate::diag::{Faults, code, list};
 use crate::model::number::literals;
 use crate::model::{

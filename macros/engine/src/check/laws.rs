@@ -8,7 +8,7 @@ use syn::{BinOp, Expr, UnOp};
 use super::elements::Found;
 use super::number::Numbers;
 use super::readings::Readings;
-use super::switches::{SWITCHING, is_switching};
+use super::switching::{SWITCHING, is_switching};
 use super::tables::Called;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::{Curve, Function, LawTerm};

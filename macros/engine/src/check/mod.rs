@@ -13,7 +13,8 @@
 //! - `linear.rs`: linear functions of such numbers.
 //! - `laws.rs`: laws that a mechanism writes for a force or a driver.
 //! - `states.rs`: rates of the user's own states.
-//! - `switches.rs`: laws that switch, and the switches of a mechanism.
+//! - `switching.rs`, `switches.rs`: which laws may switch; such laws, and the switches of a
+//!   mechanism.
 //! - `readings.rs`: what these read of joints and forces.
 //! - `tables.rs`: splines and inputs with derivatives, in laws.
 //! - `values.rs`: parameters, inputs and starts of states. A reader that meets an input where none
@@ -56,6 +57,7 @@ mod readings;
 mod redundant;
 mod states;
 mod switches;
+mod switching;
 mod tables;
 mod values;
 

@@ -59,6 +59,15 @@ impl<M: Mechanism> Instants<M> {
         [enclosed.value(), slope]
     }
 
+    /// The side that an expression takes where it has left another.
+    pub(crate) fn side_after(&self, switch: &Switch, side: f64, from: f64, until: f64) -> f64 {
+        if side == 0.0 || self.at(switch, from) == 0.0 {
+            self.side_behind(switch, from, until)
+        } else {
+            -side
+        }
+    }
+
     /// The side that an expression takes behind a time (s), as far as it is seen up to another:
     /// 1, -1, or 0 where it stays at zero.
     pub(crate) fn side_behind(&self, switch: &Switch, from: f64, until: f64) -> f64 {
@@ -78,7 +87,7 @@ impl<M: Mechanism> Instants<M> {
     }
 
     /// The first time (s) in `(from, until]` at which an expression leaves the side of its zero
-    /// that is held.
+    /// that is held, be it to rest at zero.
     pub(crate) fn first(
         &self,
         switch: &Switch,
@@ -101,6 +110,9 @@ impl<M: Mechanism> Instants<M> {
             } else {
                 value.is_beside_zero(side)
             };
+            if side != 0.0 && value.is_zero() {
+                return Ok(Some(at));
+            }
             let is_shortest = end - at <= shortest;
             if !stays && (is_shortest || side != 0.0 && slope.excludes_zero()) {
                 let upwards = |time: f64| -side * self.at(switch, time);

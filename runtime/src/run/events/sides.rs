@@ -59,18 +59,15 @@ where
         }
         let instant = switching.instant.take();
         let is_due = instant.is_some_and(|instant| time >= instant || is_same(time, instant));
+        let (now, end) = (time.to_f64(), hybrid.end.to_f64());
         if is_due {
             for switch in M::SWITCHES {
                 if of::<S, M>(&switching.due, switch) != S::zero() {
                     let mut watch = switching.watch(switch);
-                    if watch.side() == S::zero() {
-                        let instants = Instants::<M>::new(self.dynamics.parameters());
-                        let (now, end) = (time.to_f64(), hybrid.end.to_f64());
-                        let side = instants.side_behind(switch, now, end);
-                        watch.begin_at(S::constant(side));
-                    } else {
-                        watch.turn();
-                    }
+                    let instants = Instants::<M>::new(self.dynamics.parameters());
+                    let side = watch.side().to_f64();
+                    let side = instants.side_after(switch, side, now, end);
+                    watch.begin_at(S::constant(side));
                     switching.keep(switch, &watch);
                 }
             }
@@ -135,7 +132,8 @@ where
                 }
                 // A jump by another one; the zeros of its own are found as such.
                 let is_beyond = before.to_f64() * reading < -f64::EPSILON.sqrt();
-                if is_moved && before == S::zero() || is_beyond {
+                // One that comes to rest at zero has no sign any more.
+                if reading == 0.0 || before == S::zero() || is_beyond {
                     let side = instants.side_behind(switch, now, end);
                     watch.begin_at(S::constant(side));
                 }
@@ -144,7 +142,8 @@ where
                 if reading.to_f64().is_nan() {
                     return Err(undecided(switch, time.to_f64()));
                 }
-                if !watch.stays(reading, is_moved) {
+                // Exactly zero may be where it comes to rest.
+                if !watch.stays(reading, is_moved || reading == S::zero()) {
                     let side = match watch.clear_side(reading) {
                         Some(side) => side,
                         None => self.side_of_motion(bounds, switch, (time, state))?,
@@ -278,12 +277,8 @@ where
                 };
                 let root = S::constant(root);
                 if is_same(root, from) {
-                    if side == 0.0 {
-                        let side = instants.side_behind(switch, stretch.0, until.to_f64());
-                        watch.begin_at(S::constant(side));
-                    } else {
-                        watch.turn();
-                    }
+                    let side = instants.side_after(switch, side, stretch.0, until.to_f64());
+                    watch.begin_at(S::constant(side));
                     switching.keep(switch, &watch);
                     self.dynamics.hold(switch, watch.side());
                     continue 'anew;

@@ -304,11 +304,6 @@ impl<S: Real> Watch<S> {
         }
     }
 
-    /// Goes over to the other side.
-    pub(crate) fn turn(&mut self) {
-        self.side = Side::of(-self.side());
-    }
-
     /// Takes a side anew, at zero until a reading is beyond round-off.
     pub(crate) fn begin_at(&mut self, side: S) {
         (self.side, self.zero, self.root) = (Side::of(side), Self::round_off(), None);
