@@ -60,13 +60,6 @@ struct Laws {
     unknown: Actuator,
     #[force(between = [ground, bead], head = [0.0, 0.0, 0.0], tail = [0.0, 0.0, 1.0], force = if lenght < 1.0 { 1.0 } else { 0.0 })]
     misspelt: Actuator,
-    #[force(
-        between = [ground, bead], head = [0.0, 0.0, 0.0], tail = [0.0, 0.0, 1.0],
-        force = if (length < 1.0 || rate > 1.0) && (length < 2.0 || rate > 2.0) && (length < 3.0 || rate > 3.0)
-            && (length < 4.0 || rate > 4.0) && (length < 5.0 || rate > 5.0) && (length < 6.0 || rate > 6.0)
-            && (length < 7.0 || rate > 7.0) { 1.0 } else { 0.0 }
-    )]
-    endless: Actuator,
     #[force(between = [ground, bead], head = [0.0, 0.0, 0.0], tail = [0.0, 0.0, 1.0], force = abs(play))]
     right: Actuator,
 }
