@@ -44,7 +44,7 @@ fn friction_that_must_hold_is_refused_by_name() {
         (0.0, 0.2, 0.0),
         (0.0, -0.2, 0.0),
         // It stops after v / (0.5 - pull).
-        (1.0, 0.0, 2.0),
+        (1.0, 0.1, 2.5),
         (-1.0, 0.1, 1.0 / 0.6),
     ] {
         let (fault, time) = fault(&dry(speed, pull));
@@ -59,13 +59,13 @@ fn friction_that_must_hold_is_refused_by_name() {
         assert!(fault.to_string().contains("`Interaction::friction`"));
     }
     for error in [
-        dry(1.0, 0.0)
+        dry(1.0, 0.1)
             .simulation(StandardLagrange, Rk4::every(1e-2))
             .run(0.0..=4.0, every(0.1), |_| ()),
-        dry(1.0, 0.0)
+        dry(1.0, 0.1)
             .simulation(StandardLagrange, RadauIIA::default())
             .run(0.0..=4.0, every(0.1), |_| ()),
-        dry(1.0, 0.0)
+        dry(1.0, 0.1)
             .simulation(StandardLagrange, Bdf::new(tight()))
             .absolute_coordinates()
             .run(0.0..=4.0, every(0.1), |_| ()),

@@ -10,7 +10,7 @@ use super::number::Numbers;
 use crate::diag::{Faults, code};
 use crate::model::{
     Action, Binding, Element, ElementDef, LawTerm, Number, Switch, Switching, Term, UserState,
-    first_further, switch::held,
+    first_further, law::held,
 };
 use crate::syntax::array::only;
 use crate::syntax::ungroup;

@@ -2,7 +2,8 @@
 //! along an angle, asks for no value.
 
 use super::joint::{Action, ElementKind, Term, Turn};
-use super::mechanism::{Binding, Element, LawTerm, Model};
+use super::law::LawTerm;
+use super::mechanism::{Binding, Element, Model};
 
 impl Model {
     /// The angles of a joint or force that count turns, in the order of their auxiliary variables.

@@ -6,12 +6,12 @@ use std::ops::Range;
 use proc_macro2::{Ident, TokenStream};
 
 use super::asked::Asked;
-use super::joint::{ElementDef, Extent, Function, Term, Turn};
+use super::joint::{ElementDef, Term, Turn};
+use super::law::{LawTerm, Switch};
 use super::name::Name;
 use super::number::{Number, Symbol, literals};
 use super::rank::Independence;
 use super::shape::Shape;
-use super::switch::{Switch, Switching};
 use super::value::{RunTimeValue, Spline, first_further};
 
 /// Whether a body has an orientation.
@@ -83,58 +83,6 @@ pub enum Binding {
     Law(LawTerm),
     /// What the definition says where nothing is given.
     Default,
-}
-
-/// An expression of a law.
-#[derive(Clone, Debug, PartialEq)]
-pub enum LawTerm {
-    /// A number.
-    Number(Number),
-    /// The time (s).
-    Time,
-    /// An argument by its place.
-    Argument(usize),
-    /// A sum with signs: `true` is minus.
-    Sum(Vec<(bool, LawTerm)>),
-    /// A product.
-    Product(Box<LawTerm>, Box<LawTerm>),
-    /// A function.
-    Function(Function, Box<LawTerm>),
-    /// A state of the user's own, by its place.
-    State(usize),
-    /// What is read of a joint, or behind the joints of a force: in rates of states alone.
-    Reading {
-        /// The place of the joint or force.
-        element: usize,
-        /// A scalar of its definition.
-        term: Box<Term>,
-    },
-    /// An input with its first and second derivative.
-    Setpoint([Number; 3]),
-    /// On which side of its zero an expression is: 1, -1, or 0 at zero.
-    Side(Box<Switching>),
-    /// The first law where an expression is not negative, else the second.
-    Select(Box<Switching>, Box<[LawTerm; 2]>),
-}
-
-impl LawTerm {
-    /// How large it is with arguments of given extents.
-    #[must_use]
-    pub fn extent(&self, arguments: &[Extent]) -> Extent {
-        match self {
-            Self::Number(_) | Self::Time | Self::State(_) | Self::Setpoint(_) => Extent::ONE,
-            Self::Argument(place) => arguments[*place],
-            Self::Sum(terms) => Extent::sum(terms.iter().map(|(_, term)| term.extent(arguments))),
-            Self::Product(a, b) => a.extent(arguments).product(b.extent(arguments)),
-            Self::Function(_, inner) => inner.extent(arguments).function(),
-            Self::Side(_) | Self::Select(..) => {
-                let parts = self.parts().into_iter();
-                Extent::sum(parts.map(|part| part.extent(arguments))).function()
-            }
-            Self::Reading { term, .. } => term
-                .extent(&|_: usize, arguments: &[Extent]| Extent::sum(arguments.iter().copied())),
-        }
-    }
 }
 
 /// A joint or a force of a mechanism.

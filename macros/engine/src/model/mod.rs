@@ -6,13 +6,14 @@ pub mod comparison;
 mod counted;
 pub mod inertia;
 pub mod joint;
+pub mod law;
 pub mod mechanism;
 pub mod motion;
 pub mod name;
 pub mod number;
 pub mod rank;
 pub mod shape;
-pub mod switch;
+mod switch;
 pub mod value;
 
 pub use asked::Asked;
@@ -21,13 +22,13 @@ pub use joint::{
     Action, Curve, ElementDef, ElementKind, Extent, Function, Parameter, ParameterKind, Row, Term,
     Turn,
 };
+pub use law::{LawTerm, Switch, Switching};
 pub use mechanism::{
-    Binding, Body, BodyKind, Coordinates, Element, LawTerm, Model, NamedPoint, Part, UserState,
+    Binding, Body, BodyKind, Coordinates, Element, Model, NamedPoint, Part, UserState,
 };
 pub use motion::{Direction, Motion};
 pub use name::Name;
 pub use number::{Number, Symbol};
 pub use rank::{Contradiction, Independence, Rank, Redundant, RedundantRow};
 pub use shape::{Shape, ShapeKind};
-pub use switch::{Switch, Switching};
 pub use value::{RunTimeValue, Spline, Table, ValueKind, first_further};

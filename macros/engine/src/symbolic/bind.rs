@@ -5,7 +5,7 @@ use super::expression::{AngleExpr, PairedAngles, ScalarExpr, VectorExpr};
 use super::fixed::{Copies, axis_and_normals, copies, number, triple};
 use super::start;
 use super::vector::{Triple, ZERO};
-use crate::model::switch::Held;
+use crate::model::law::Held;
 use crate::model::{Action, Binding, Element, Function, LawTerm, Model, Term, Turn};
 
 /// What a force does, bound to bodies.
