@@ -6,6 +6,7 @@ pub use holonom_urdf_macros::urdf_impl;
 
 pub use crate::dynamics::likes::{Like, check_likes};
 pub use crate::error::ParameterFault;
+pub use crate::math::side::{above, below, side};
 pub use crate::math::spline::{Order, SplineFault, Table, evaluate_numbers};
 pub use crate::mechanism::{
     Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,

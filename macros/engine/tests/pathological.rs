@@ -222,6 +222,23 @@ fn laws_that_multiply() {
     });
 }
 
+/// A condition repeats the laws between which it chooses.
+#[test]
+fn conditions_that_multiply() {
+    with_small_stack(|| {
+        let rate = |groups: usize| {
+            let condition = vec!["(time < 1.0 || time > 2.0)"; groups].join(" && ");
+            let item = format!(
+                "struct Any {{ #[state(rate = if {condition} {{ 1.0 }} else {{ 0.0 }})] value: f64, \
+                 #[body(free, mass = 1.0)] stone: Particle }}"
+            );
+            holonom_engine::assemble(delivery(&tokens(&item))).to_string()
+        };
+        assert!(!rate(5).contains("too many alternatives"));
+        assert_refused(&rate(30), "too many alternatives");
+    });
+}
+
 /// What is just small enough is worked out.
 #[test]
 fn the_largest_definitions() {

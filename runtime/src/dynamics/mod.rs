@@ -49,8 +49,9 @@ use crate::mechanism::coordinates::{
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
 use crate::mechanism::orientations::{check_state, with_unit_orientations};
+use crate::mechanism::switch::Switch;
 use crate::monitor::Seen;
-use crate::state::vector::{StateParts, Vector};
+use crate::state::vector::{Array as _, StateParts, Vector};
 
 /// A mechanism with a formulation, prepared: what an integrator moves.
 ///
@@ -304,6 +305,17 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
         M::take_inputs(&self.parameters, &mut self.absolute.constants);
         C::take_inputs(&self.parameters, &mut self.own);
         Ok(())
+    }
+
+    /// Holds a side of a switch: 1 or -1. With 0 the side is that of the state.
+    pub(crate) fn hold(&mut self, switch: &Switch, side: S) {
+        let parameters = self.parameters.as_mut_slice();
+        let held = parameters.get_mut(switch.place);
+        if let Some(held) = held.filter(|held| **held != side) {
+            *held = side;
+            M::take_inputs(&self.parameters, &mut self.absolute.constants);
+            C::take_inputs(&self.parameters, &mut self.own);
+        }
     }
 
     /// What depends on the parameters of the mechanism alone, in absolute coordinates.

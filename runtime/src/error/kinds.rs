@@ -475,6 +475,31 @@ pub enum Fault {
         /// Which angles.
         angles: AngleSet,
     },
+    /// A law slides along its switch: on both sides the motion leads back to it.
+    SlidingLaw {
+        /// The field of the force or state.
+        law: &'static str,
+        /// The expression whose sign decides.
+        expression: &'static str,
+        /// When (s).
+        time: f64,
+    },
+    /// The expression whose sign decides in a law is not a number, or changes its sign too often to
+    /// be followed.
+    SwitchUndecided {
+        /// The field of the force or state.
+        law: &'static str,
+        /// The expression.
+        expression: &'static str,
+        /// When (s).
+        time: f64,
+    },
+    /// Derivatives of a run were asked for, and a law switches: they jump where it does, which no
+    /// run of derivatives takes into account.
+    SwitchLeftOut {
+        /// The field of the force or state.
+        law: &'static str,
+    },
     /// A parameter of the mechanism is not acceptable.
     Parameter(ParameterError),
 }

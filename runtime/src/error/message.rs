@@ -5,6 +5,7 @@ use core::fmt;
 
 use crate::error::interactions;
 use crate::error::readable::{Given, Measured};
+use crate::error::switches;
 use crate::error::{
     AngleSet, Fault, LeavesOut, NotFinite, ParameterError, ParameterFault, Quantity, RunError,
     SimulationError,
@@ -234,9 +235,12 @@ impl fmt::Display for Fault {
             | Self::NoInteractions => interactions::say(self, f),
             Self::NotVerified => write!(
                 f,
-                "a run with events, controllers or checkpoints has no companion that `verified()` could compare it with; compare with a second run of \
+                "a run with events, controllers, checkpoints or laws that switch has no companion that `verified()` could compare it with; compare with a second run of \
                  another tolerance or step"
             ),
+            Self::SlidingLaw { .. } | Self::SwitchUndecided { .. } | Self::SwitchLeftOut { .. } => {
+                switches::say(self, f)
+            }
             Self::Unstable { step } => write!(
                 f,
                 "the numbers grew without bound: a step of {} s is too long for the spin, the springs or the dampers here, unless a force grows \

@@ -11,6 +11,7 @@ pub(crate) mod readable;
 #[cfg(feature = "serde")]
 pub(crate) mod sentence;
 pub(crate) mod setting;
+mod switches;
 
 pub use checkpoint::CheckpointFault;
 pub use kinds::{

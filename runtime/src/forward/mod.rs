@@ -1,8 +1,10 @@
 //! Numbers that carry derivatives along.
 //!
-//! Kernels over them give the Jacobian of the rates, four columns by each evaluation.
+//! Kernels over them give the Jacobian of the rates, four columns by each evaluation. Over
+//! intervals (`interval.rs`) they enclose a law and its slope.
 
 mod columns;
+pub(crate) mod interval;
 
 use core::array::from_fn;
 use core::cmp::Ordering;

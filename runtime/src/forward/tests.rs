@@ -1,5 +1,6 @@
 use super::{Forward, Lifted, by_forward_numbers, with_differences};
 use crate::math::scalar::{Real, Scalar};
+use crate::math::side::{above, below, side};
 use crate::state::joint_state::JointState;
 use crate::state::vector::Vector;
 
@@ -206,4 +207,16 @@ fn single_precision_carries_derivatives() {
     let [slope] = (x.sin() * x.exp()).derivatives();
     let exact = 0.5_f64.exp() * (0.5_f64.sin() + 0.5_f64.cos());
     assert!((slope.to_f64() - exact).abs() < 1e-6);
+}
+
+#[test]
+fn laws_that_switch_have_the_derivatives_of_what_is_chosen() {
+    let x = Forward::new(-0.5_f64, [1.0]);
+    let none = Forward::constant(0.0);
+    let size = side(none, x) * x;
+    assert_eq!((size.value(), size.derivatives()), (0.5, [-1.0]));
+    let at_zero = side(none, Forward::new(0.0_f64, [1.0]));
+    assert_eq!((at_zero.value(), at_zero.derivatives()), (0.0, [0.0]));
+    let chosen = above(side(none, x), x * x) + below(side(none, x), x);
+    assert_eq!((chosen.value(), chosen.derivatives()), (-0.5, [1.0]));
 }

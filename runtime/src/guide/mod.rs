@@ -15,6 +15,7 @@
 //! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics, inverse dynamics; power and energy |
 //! | [`data`] | cams, recorded motions and curves of forces from tables; joints driven from outside |
 //! | [`events`] | stops, switches and limits at their exact time; controllers at their period |
+//! | [`switches`] | forces that jump or bend: backlash, saturation, pulses, ropes; `sign abs min max if` in laws |
 //! | [`states`] | numbers with a rate of their own: motor currents, filters, hydraulic pressures, integrals of controllers |
 //! | [`contact`] | limits with impacts, dry friction, brakes and clutches |
 //! | [`parameters`] | numbers known only at run time, and inputs that change at every step |
@@ -135,6 +136,9 @@ pub mod events {}
 
 #[doc = include_str!("states.md")]
 pub mod states {}
+
+#[doc = include_str!("switches.md")]
+pub mod switches {}
 
 #[doc = include_str!("contact.md")]
 pub mod contact {}

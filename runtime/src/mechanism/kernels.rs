@@ -7,6 +7,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::coordinates::{Coordinates, Evaluation};
 use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
 use crate::mechanism::report::Report;
+use crate::mechanism::switch::Switch;
 use crate::state::vector::{Array, StateParts};
 
 /// The state of a mechanism, with numbers of type `f64` unless another one is named:
@@ -76,6 +77,8 @@ pub trait Mechanism: Sized + 'static {
     /// The first rows of equations between vectors. Each has three rows, which share one
     /// compliance: axes are not told apart.
     const VECTOR_ROWS: &'static [usize] = &[];
+    /// The expressions in laws whose signs decide; none where no law switches.
+    const SWITCHES: &'static [Switch] = &[];
 
     /// The parameters of this value, checked as the `f64` that they are: here are all numbers that
     /// the macro could not see.
@@ -271,6 +274,29 @@ pub trait Mechanism: Sized + 'static {
         _time: S,
         _state: &Self::State<S>,
         _rates: &mut <Self::State<S> as StateParts<S>>::Coordinates,
+    ) {
+    }
+
+    /// Writes the values of [`Mechanism::SWITCHES`] where their sides are among the parameters, and
+    /// leaves the others. Without effect where there are none.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn switches_into<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _time: S,
+        _state: &Self::State<S>,
+        _readings: &mut Self::Parameters<S>,
+    ) {
+    }
+
+    /// The same of those that depend on the time alone; nothing is read of the state.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn switches_of_time_into<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _time: S,
+        _state: &Self::State<S>,
+        _readings: &mut Self::Parameters<S>,
     ) {
     }
 

@@ -20,6 +20,7 @@ pub(crate) mod readout;
 pub(crate) mod relative;
 pub(crate) mod report;
 pub(crate) mod setpoint;
+pub(crate) mod switch;
 
 pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
@@ -50,3 +51,4 @@ pub use report::{
     ValueInfo,
 };
 pub use setpoint::Setpoint;
+pub use switch::Switch;

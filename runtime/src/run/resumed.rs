@@ -74,6 +74,10 @@ where
         if !is_whole {
             return Err(refused(CheckpointFault::Happenings));
         }
+        if let Some(hybrid) = self.hybrid.take() {
+            self.hold(&hybrid);
+            self.hybrid = Some(hybrid);
+        }
         let progress = &past.progress;
         self.steps = progress.steps;
         self.counts = progress.counts;

@@ -139,6 +139,9 @@ where
             if let Some(hybrid) = &mut self.hybrid {
                 until = hybrid.next_instant(until);
             }
+            until = self
+                .next_switch(from, until)
+                .map_err(|fault| self.explained(integrator, fault, *last_good))?;
             let span = TimeSpan {
                 start: from,
                 end: until,

@@ -20,7 +20,8 @@ use crate::mechanism::orientations::check_state;
 use crate::monitor::Monitor;
 use crate::run::companion::Companion;
 use crate::run::deferred::Deferred;
-use crate::run::events::list::{Happenings, Hybrid};
+use crate::run::events::list::{Happenings, Hybrid, NothingHappens};
+use crate::run::events::switching::Switching;
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
 use crate::run::past::{Past, Plan, Planned};
 use crate::run::post_step::PostStabilisation;
@@ -451,8 +452,18 @@ where
         check_interval(last_good.0, end)?;
         let schedule = Schedule::new(start, end, reporting)?;
         let schedule = schedule.after(past.map_or(0, |past| past.progress.reports));
+        // Laws that switch make events of their own.
+        let mut nothing = NothingHappens;
+        let happenings = match happenings {
+            None if !M::SWITCHES.is_empty() => Some(&mut nothing as &mut dyn Happenings<S, M>),
+            other => other,
+        };
         let hybrid = happenings.map(|list| self.hybrid(list, (start, end), &given, past));
-        let hybrid = hybrid.transpose()?;
+        let mut hybrid = hybrid.transpose()?;
+        let mut switching = (!M::SWITCHES.is_empty()).then(Switching::new);
+        if let Some(hybrid) = &mut hybrid {
+            hybrid.switching = switching.as_mut();
+        }
         check_state::<S, M>(&last_good.1)?;
         if past.is_none() {
             last_good.1 = self.start(&constants, (start, end), last_good.1, described)?;

@@ -5,7 +5,7 @@ use core::ops::RangeInclusive;
 
 use super::Sensitivities;
 use super::start::check_derivatives;
-use crate::error::SimulationError;
+use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
 use crate::forward::Forward;
 use crate::integrate::Method;
@@ -126,7 +126,8 @@ where
     ///
     /// # Errors
     /// As [`Simulation::run`]; [`Fault::StartOpens`](crate::Fault::StartOpens) where the
-    /// derivatives of the start violate those of the constraints.
+    /// derivatives of the start violate those of the constraints;
+    /// [`Fault::SwitchLeftOut`] where a law switches.
     pub fn run<O, R>(
         &self,
         interval: RangeInclusive<S>,
@@ -141,6 +142,10 @@ where
         let [start, end] = [from, to].map(Forward::fixed);
         let constants = M::prepare(&self.along.parameters);
         let state = self.along.start();
+        if let Some(switch) = M::SWITCHES.first() {
+            let (time, fault) = (from.to_f64(), Fault::SwitchLeftOut { law: switch.law });
+            return Err(SimulationError { time, fault, state }.into());
+        }
         check_derivatives::<M, K, S>(&constants, start, &state).map_err(|fault| {
             let time = from.to_f64();
             R::Error::from(SimulationError { time, fault, state })

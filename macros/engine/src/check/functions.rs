@@ -3,6 +3,7 @@
 use syn::{Expr, ExprCall};
 
 use super::expression::{Context, Shaped};
+use super::switching::SWITCHING;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::{ElementKind, Function, ParameterKind, Term, Turn};
 use crate::syntax::ungroup;
@@ -112,7 +113,14 @@ impl Context<'_> {
                     .chain(Function::NAMED.map(|(name, _)| name))
                     .chain(laws.iter().map(String::as_str))
                     .collect();
-                let near = did_you_mean(&name, known.iter().copied());
+                let mut near = did_you_mean(&name, known.iter().copied());
+                if SWITCHING.iter().any(|(switching, _)| *switching == name) {
+                    near = match self.kind {
+                        ElementKind::Force => "; it stands in laws, which a mechanism gives: take a parameter that is a `Law`",
+                        ElementKind::Joint => "; the equations of a joint have two derivatives",
+                    }
+                    .to_string();
+                }
                 faults.at(
                     &call.func,
                     format!("no function `{name}`; there are {}{near}", list(known)),

@@ -15,6 +15,7 @@ use super::number::{AT_LIKES, Numbers, elements};
 use super::pairs::Pairs;
 use super::parts::Part;
 use super::points::{NamedPoints, position_of};
+use super::switching::no_switches;
 use crate::diag::{Faults, code, list};
 use crate::model::number::literals;
 use crate::model::{
@@ -139,7 +140,7 @@ impl JointChecker<'_> {
         let is_cut = self.cut(joint, &mut pairs, faults);
         let limits = self.limits(joint, &mut pairs, numbers, faults);
         let mut bindings = Vec::new();
-        for parameter in &joint.parameters {
+        for (place, parameter) in joint.parameters.iter().enumerate() {
             let key = parameter.name.to_string();
             numbers.field = name.clone();
             numbers.attribute.clone_from(&key);
@@ -171,6 +172,7 @@ impl JointChecker<'_> {
                         arguments,
                         numbers,
                         readings: None,
+                        no_switches: no_switches(joint, place),
                     }
                     .read(expr, faults);
                     numbers.words.clear();

@@ -8,6 +8,7 @@ use syn::{BinOp, Expr, UnOp};
 use super::elements::Found;
 use super::number::Numbers;
 use super::readings::Readings;
+use super::switching::{SWITCHING, is_switching};
 use super::tables::Called;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::{Curve, Function, LawTerm};
@@ -19,6 +20,8 @@ pub(super) struct LawReader<'a, 'b, 'c> {
     pub(super) numbers: &'b mut Numbers<'c>,
     /// What can be read of joints and forces: in rates of states.
     pub(super) readings: Option<&'a Readings<'a>>,
+    /// Why the law may not switch; `None` where it may.
+    pub(super) no_switches: Option<&'static str>,
 }
 
 impl LawReader<'_, '_, '_> {
@@ -91,11 +94,10 @@ impl LawReader<'_, '_, '_> {
                 }
             }
             Expr::Call(call) => self.call(call, faults),
+            Expr::If(choice) => self.choice(choice, faults),
             other => {
                 let more = match other {
-                    Expr::If(_) | Expr::Match(_) => {
-                        "; from one value to another leads `smooth_step`"
-                    }
+                    Expr::Match(_) => "; from one value to another leads `smooth_step`",
                     _ => "",
                 };
                 faults.at(
@@ -103,7 +105,7 @@ impl LawReader<'_, '_, '_> {
                     format!(
                         "expected an expression of {} and numbers: `+`, `-`, `*`, `/`, {}{more}",
                         self.words(),
-                        list(Function::NAMED.map(|(name, _)| name))
+                        list(self.functions())
                     ),
                 );
                 None
@@ -143,6 +145,10 @@ impl LawReader<'_, '_, '_> {
 
     fn call(&mut self, call: &syn::ExprCall, faults: &mut Faults) -> Option<LawTerm> {
         let name = code(&call.func);
+        let mut switching = SWITCHING.into_iter();
+        if let Some(switching) = switching.find(|(known, _)| *known == name) {
+            return self.switch(call, switching, faults);
+        }
         let function = match Function::named(&name) {
             Some(function) => Some(function),
             None => match self.numbers.spline(&call.func, faults) {
@@ -155,9 +161,12 @@ impl LawReader<'_, '_, '_> {
             },
         };
         let Some(function) = function else {
-            let known = Function::NAMED.map(|(name, _)| name);
+            let known = self.functions();
             let splines = self.numbers.spline_names();
-            let all = known.into_iter().chain(splines.iter().map(String::as_str));
+            let all = known
+                .iter()
+                .copied()
+                .chain(splines.iter().map(String::as_str));
             let near = did_you_mean(&name, all);
             faults.at(
                 &call.func,
@@ -178,6 +187,14 @@ impl LawReader<'_, '_, '_> {
         Some(LawTerm::Function(function, Box::new(argument)))
     }
 
+    /// The functions that a law may call.
+    fn functions(&self) -> Vec<&'static str> {
+        let named = Function::NAMED.map(|(name, _)| name).into_iter();
+        let switching = SWITCHING.map(|(name, _)| name).into_iter();
+        let may_switch = self.no_switches.is_none();
+        named.chain(switching.filter(|_| may_switch)).collect()
+    }
+
     /// "`time` and `length`".
     fn words(&self) -> String {
         let arguments = self.arguments.iter().map(ToString::to_string);
@@ -186,7 +203,7 @@ impl LawReader<'_, '_, '_> {
 
     /// Whether an expression speaks of the time, of an argument, of a state or of a reading.
     fn varies(&self, expr: &Expr) -> bool {
-        if self.numbers.is_state(expr) || self.is_reading(expr) {
+        if self.numbers.is_state(expr) || self.is_reading(expr) || is_switching(expr) {
             return true;
         }
         match ungroup(expr) {

@@ -15,6 +15,7 @@ use super::number::Numbers;
 use super::pairs::Pairs;
 use super::readings::Readings;
 use super::states;
+use super::switches;
 use super::{asked, kinds, parts, points, redundant};
 use crate::diag::{Faults, code, did_you_mean};
 use crate::model::name::Step;
@@ -263,6 +264,7 @@ fn described<'a>(
     states::tell(&states, &mut elements);
     let points = points.into_iter().map(|(_, point)| point);
     let points: Vec<_> = points.collect::<Option<_>>()?;
+    let switches = switches::switches((joints.len(), &forces), &definitions, &states, &mut numbers);
     let values = std::mem::take(&mut numbers.values);
     let symbols = std::mem::take(&mut numbers.symbols);
     let splines = std::mem::take(&mut numbers.splines);
@@ -282,6 +284,7 @@ fn described<'a>(
         definitions,
         symbols,
         splines,
+        switches,
         independence: Independence::default(),
         coordinates,
         asked,

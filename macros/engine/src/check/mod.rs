@@ -13,6 +13,8 @@
 //! - `linear.rs`, `turning.rs`: linear functions of such numbers, and rotations by them.
 //! - `laws.rs`: laws that a mechanism writes for a force or a driver.
 //! - `states.rs`: rates of the user's own states.
+//! - `switching.rs`, `switches.rs`: which laws may switch; such laws, and the switches of a
+//!   mechanism.
 //! - `readings.rs`: what these read of joints and forces.
 //! - `tables.rs`: splines and inputs with derivatives, in laws.
 //! - `values.rs`: parameters, inputs and starts of states. A reader that meets an input where none
@@ -60,6 +62,8 @@ mod points;
 mod readings;
 mod redundant;
 mod states;
+mod switches;
+mod switching;
 mod tables;
 mod turning;
 mod values;

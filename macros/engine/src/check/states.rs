@@ -83,6 +83,7 @@ fn state(
         arguments: &[],
         numbers,
         readings: Some(readings),
+        no_switches: None,
     }
     .read(expr, faults);
     numbers.words.clear();
@@ -103,24 +104,14 @@ fn state(
 /// Tells joints and forces what is read of them.
 pub(super) fn tell(states: &[UserState], elements: &mut [&mut Element]) {
     fn visit(law: &LawTerm, elements: &mut [&mut Element]) {
-        match law {
-            LawTerm::Reading { element, term } => {
-                let read = &mut elements[*element].read;
-                if !read.contains(term) {
-                    read.push((**term).clone());
-                }
+        if let LawTerm::Reading { element, term } = law {
+            let read = &mut elements[*element].read;
+            if !read.contains(term) {
+                read.push((**term).clone());
             }
-            LawTerm::Sum(terms) => terms.iter().for_each(|(_, term)| visit(term, elements)),
-            LawTerm::Product(a, b) => {
-                visit(a, elements);
-                visit(b, elements);
-            }
-            LawTerm::Function(_, inner) => visit(inner, elements),
-            LawTerm::Number(_)
-            | LawTerm::Time
-            | LawTerm::Argument(_)
-            | LawTerm::Setpoint(_)
-            | LawTerm::State(_) => {}
+        }
+        for part in law.parts() {
+            visit(part, elements);
         }
     }
     for state in states {

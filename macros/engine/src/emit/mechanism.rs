@@ -14,6 +14,7 @@ use super::report::report;
 use super::solver::is_short;
 use super::splines;
 use super::straight_line::StraightLine;
+use super::switches;
 use super::writer::Writer;
 use crate::coordinates::kernels::JointKernels;
 use crate::model::{Coordinates, Model};
@@ -73,6 +74,7 @@ impl Writer<'_> {
         );
         let assertions = parameters::assertions(model, facade);
         let splines = splines::functions(model, facade);
+        let sides = switches::functions(model, facade);
         let parameters = parameters::parameters(model, facade);
         let construction = of_mechanism(model, facade);
         let limits = limits(model, facade);
@@ -100,6 +102,7 @@ impl Writer<'_> {
                 #inputs_type
                 #assertions
                 #splines
+                #sides
 
                 #[automatically_derived]
                 #documentation
@@ -245,6 +248,7 @@ impl Writer<'_> {
             tokens.extend(self.function(name, kernel, &TokenStream::new(), result));
         }
         tokens.extend(self.state_rates());
+        tokens.extend(self.switches());
         let StraightLine {
             statements,
             outputs,

@@ -48,4 +48,5 @@ mod splines;
 mod states;
 pub mod store;
 pub mod straight_line;
+mod switches;
 mod writer;

@@ -332,6 +332,9 @@ impl<E: Environment> Writer<'_, E> {
                 let a = self.reference(a);
                 quote!(#function(&#constants[..], #a))
             }
+            Node::Side(a, b) => self.of_two("__side", a, b),
+            Node::Above(a, b) => self.of_two("__above", a, b),
+            Node::Below(a, b) => self.of_two("__below", a, b),
             Node::Angle(sine, cosine) => {
                 let (sine, cosine) = (self.reference(sine), self.reference(cosine));
                 quote!(__S::atan2(#sine, #cosine))
@@ -381,6 +384,12 @@ impl<E: Environment> Writer<'_, E> {
         let name = quote::format_ident!("{name}");
         let argument = self.reference(argument);
         quote!(__S::#name(#argument))
+    }
+
+    fn of_two(&mut self, name: &str, first: Expr, second: Expr) -> TokenStream {
+        let name = quote::format_ident!("{name}");
+        let (first, second) = (self.reference(first), self.reference(second));
+        quote!(#name(#first, #second))
     }
 
     fn bind(&mut self, place: usize, value: Value, is_load: bool) {

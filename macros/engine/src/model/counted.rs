@@ -2,7 +2,8 @@
 //! along an angle, asks for no value.
 
 use super::joint::{Action, ElementKind, Term, Turn};
-use super::mechanism::{Binding, Element, LawTerm, Model};
+use super::law::LawTerm;
+use super::mechanism::{Binding, Element, Model};
 
 impl Model {
     /// The angles of a joint or force that count turns, in the order of their auxiliary variables.
@@ -73,15 +74,5 @@ fn changes_by(term: &Term, turn: Turn, element: &Element) -> bool {
 
 /// Whether a law has an argument in it.
 fn takes(law: &LawTerm, argument: usize) -> bool {
-    match law {
-        LawTerm::Number(_)
-        | LawTerm::Time
-        | LawTerm::Setpoint(_)
-        | LawTerm::State(_)
-        | LawTerm::Reading { .. } => false,
-        LawTerm::Argument(place) => *place == argument,
-        LawTerm::Sum(terms) => terms.iter().any(|(_, term)| takes(term, argument)),
-        LawTerm::Product(a, b) => takes(a, argument) || takes(b, argument),
-        LawTerm::Function(_, inner) => takes(inner, argument),
-    }
+    law.has(&|term| matches!(term, LawTerm::Argument(place) if *place == argument))
 }

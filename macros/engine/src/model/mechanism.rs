@@ -6,7 +6,8 @@ use std::ops::Range;
 use proc_macro2::{Ident, TokenStream};
 
 use super::asked::Asked;
-use super::joint::{ElementDef, Extent, Function, Term, Turn};
+use super::joint::{ElementDef, Term, Turn};
+use super::law::{LawTerm, Switch};
 use super::name::Name;
 use super::number::{Number, Symbol, literals};
 use super::rank::Independence;
@@ -82,50 +83,6 @@ pub enum Binding {
     Law(LawTerm),
     /// What the definition says where nothing is given.
     Default,
-}
-
-/// An expression of a law.
-#[derive(Clone, Debug, PartialEq)]
-pub enum LawTerm {
-    /// A number.
-    Number(Number),
-    /// The time (s).
-    Time,
-    /// An argument by its place.
-    Argument(usize),
-    /// A sum with signs: `true` is minus.
-    Sum(Vec<(bool, LawTerm)>),
-    /// A product.
-    Product(Box<LawTerm>, Box<LawTerm>),
-    /// A function.
-    Function(Function, Box<LawTerm>),
-    /// A state of the user's own, by its place.
-    State(usize),
-    /// What is read of a joint, or behind the joints of a force: in rates of states alone.
-    Reading {
-        /// The place of the joint or force.
-        element: usize,
-        /// A scalar of its definition.
-        term: Box<Term>,
-    },
-    /// An input with its first and second derivative.
-    Setpoint([Number; 3]),
-}
-
-impl LawTerm {
-    /// How large it is with arguments of given extents.
-    #[must_use]
-    pub fn extent(&self, arguments: &[Extent]) -> Extent {
-        match self {
-            Self::Number(_) | Self::Time | Self::State(_) | Self::Setpoint(_) => Extent::ONE,
-            Self::Argument(place) => arguments[*place],
-            Self::Sum(terms) => Extent::sum(terms.iter().map(|(_, term)| term.extent(arguments))),
-            Self::Product(a, b) => a.extent(arguments).product(b.extent(arguments)),
-            Self::Function(_, inner) => inner.extent(arguments).function(),
-            Self::Reading { term, .. } => term
-                .extent(&|_: usize, arguments: &[Extent]| Extent::sum(arguments.iter().copied())),
-        }
-    }
 }
 
 /// A joint or a force of a mechanism.
@@ -265,6 +222,8 @@ pub struct Model {
     pub symbols: Vec<Symbol>,
     /// The splines that laws read.
     pub splines: Vec<Spline>,
+    /// The expressions whose signs decide in laws, each behind those in it.
+    pub switches: Vec<Switch>,
     /// Whether the equations depend on each other.
     pub independence: Independence,
     /// By what the bodies are described.
@@ -320,9 +279,15 @@ impl Model {
         })
     }
 
-    /// The number of parameters.
+    /// The number of parameters: the values, their further numbers, and the sides of switches.
     #[must_use]
     pub fn parameters(&self) -> usize {
+        self.first_side() + self.switches.len()
+    }
+
+    /// The place among the parameters of the first side of a switch.
+    #[must_use]
+    pub fn first_side(&self) -> usize {
         first_further(&self.values, self.values.len())
     }
 
@@ -374,6 +339,7 @@ impl Model {
             joints: vec![joint],
             forces: Vec::new(),
             states: Vec::new(),
+            switches: Vec::new(),
             ..self.clone()
         }
     }

@@ -6,12 +6,14 @@ pub mod comparison;
 mod counted;
 pub mod inertia;
 pub mod joint;
+pub mod law;
 pub mod mechanism;
 pub mod motion;
 pub mod name;
 pub mod number;
 pub mod rank;
 pub mod shape;
+mod switch;
 pub mod value;
 
 pub use asked::Asked;
@@ -20,9 +22,9 @@ pub use joint::{
     Action, Curve, ElementDef, ElementKind, Extent, Function, Parameter, ParameterKind, Row, Term,
     Turn,
 };
+pub use law::{LawTerm, Switch, Switching};
 pub use mechanism::{
-    Binding, Body, BodyKind, Coordinates, Element, LawTerm, Limits, Model, NamedPoint, Part,
-    UserState,
+    Binding, Body, BodyKind, Coordinates, Element, Limits, Model, NamedPoint, Part, UserState,
 };
 pub use motion::{Direction, Motion};
 pub use name::Name;

@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::equations::{
     Block, Kernel, coordinate_rates, counters, initial_state, jacobian, kinds, kinetic_energy,
-    mass, potential_energy, rows, state_rates, vector_rows, with_scene,
+    mass, potential_energy, rows, state_rates, switches, vector_rows, with_scene,
 };
 use crate::symbolic::scene::Scene;
 use crate::symbolic::table::Table;
@@ -77,6 +77,8 @@ pub struct Kernels {
     pub coordinate_rates: Kernel,
     /// The rates of the user's own states.
     pub state_rates: Kernel,
+    /// The expressions whose signs decide in laws; behind them those of the time alone.
+    pub switches: [Kernel; 2],
     /// Coordinates, auxiliary variables, the user's own states, then velocities, of the described
     /// state.
     pub initial_state: Kernel,
@@ -140,6 +142,11 @@ impl Kernels {
                 rates
             }),
             state_rates: with_scene(scene, state_rates),
+            switches: [false, true].map(|of_time| {
+                with_scene(scene, |scene| {
+                    switches(scene, model, |switch| switch.is_of_time || !of_time)
+                })
+            }),
             initial_state: initial_state(model),
             counters: counters(scene),
             power: with_scene(scene, |scene| {

@@ -480,6 +480,8 @@ fn prescribed(scalar: &ScalarExpr, body: usize) -> Option<(Triple, Option<usize>
         | ScalarExpr::Function(..)
         | ScalarExpr::Angle(_)
         | ScalarExpr::Rate(_)
+        | ScalarExpr::Side { .. }
+        | ScalarExpr::Select { .. }
         | ScalarExpr::State { .. } => None,
     }
 }

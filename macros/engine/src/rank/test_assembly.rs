@@ -187,6 +187,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         definitions: vec![joint.clone()],
         symbols: Vec::new(),
         splines: Vec::new(),
+        switches: Vec::new(),
         independence: Independence::default(),
         asked: Vec::new(),
         coordinates: Coordinates::Bodies,

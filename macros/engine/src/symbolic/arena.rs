@@ -12,6 +12,7 @@
 use std::collections::BTreeMap;
 
 use super::index::Index;
+use super::node::side;
 pub use super::node::{Expr, Input, Node, Stage};
 use crate::model::Curve;
 
@@ -419,6 +420,43 @@ impl Arena {
             .with_sign_of(sine.is_negative())
     }
 
+    /// The side that is held, 1 or -1; where none is (0), the sign of `a`, which is 0 at zero.
+    pub fn side(&mut self, held: Expr, a: Expr) -> Expr {
+        match (self.literal(held), self.literal(a)) {
+            (Some(held), Some(a)) => self.constant(side(if held == 0.0 { a } else { held })),
+            _ => self.intern(Node::Side(held, a)),
+        }
+    }
+
+    /// `a` where a side is not negative, else `b`: exactly, by two terms of which one is zero.
+    pub fn select(&mut self, side: Expr, a: Expr, b: Expr) -> Expr {
+        if a == b {
+            return a;
+        }
+        if let Some(side) = self.literal(side) {
+            return if side < 0.0 { b } else { a };
+        }
+        let (a, b) = (self.above(side, a), self.below(side, b));
+        self.add(a, b)
+    }
+
+    /// `a` where a side is not negative, else zero.
+    pub fn above(&mut self, side: Expr, a: Expr) -> Expr {
+        self.where_side(a, |a| Node::Above(side, a))
+    }
+
+    /// `a` where a side is negative, else zero.
+    pub fn below(&mut self, side: Expr, a: Expr) -> Expr {
+        self.where_side(a, |a| Node::Below(side, a))
+    }
+
+    fn where_side(&mut self, a: Expr, node: impl Fn(Expr) -> Node) -> Expr {
+        if a == Self::ZERO {
+            return a;
+        }
+        self.intern(node(a.abs())).with_sign_of(a.is_negative())
+    }
+
     /// A spline, or a derivative of it. It is left to the evaluation, whatever its argument is.
     pub fn curve(&mut self, curve: Curve, a: Expr) -> Expr {
         self.intern(Node::Curve(curve, a))
@@ -447,6 +485,9 @@ impl Arena {
             Node::Cosine(a) => self.cos(operand(a)),
             Node::Exponential(a) => self.exp(operand(a)),
             Node::Angle(a, b) => self.atan2(operand(a), operand(b)),
+            Node::Side(held, a) => self.side(operand(held), operand(a)),
+            Node::Above(side, a) => self.above(operand(side), operand(a)),
+            Node::Below(side, a) => self.below(operand(side), operand(a)),
             Node::Curve(curve, a) => self.curve(curve, operand(a)),
         }
     }

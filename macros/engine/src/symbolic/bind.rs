@@ -5,6 +5,7 @@ use super::expression::{AngleExpr, PairedAngles, ScalarExpr, VectorExpr};
 use super::fixed::{Copies, axis_and_normals, copies, number, triple};
 use super::start;
 use super::vector::{Triple, ZERO};
+use crate::model::law::Held;
 use crate::model::{Action, Binding, Element, Function, LawTerm, Model, Term, Turn};
 
 /// What a force does, bound to bodies.
@@ -191,9 +192,9 @@ impl Binder<'_> {
             Term::Rate(inner) => ScalarExpr::Rate(Box::new(self.scalar(arena, inner))),
             Term::Law {
                 parameter,
-                arguments,
+                arguments: terms,
             } => {
-                let arguments: Vec<ScalarExpr> = arguments
+                let arguments: Vec<ScalarExpr> = terms
                     .iter()
                     .map(|argument| self.scalar(arena, argument))
                     .collect();
@@ -207,6 +208,7 @@ impl Binder<'_> {
                             first_state,
                             arguments: &arguments,
                             reading: &reading,
+                            held: &|of| self.held(terms, of),
                         }
                         .expand(arena, law)
                     }
@@ -221,6 +223,13 @@ impl Binder<'_> {
             | Term::Onto(..)
             | Term::Cross(..) => unreachable!("shapes are checked where the definition stands"),
         }
+    }
+
+    /// The side that is held of an expression of a law with these arguments.
+    fn held(&self, arguments: &[Term], of: &LawTerm) -> Held {
+        let mut elements = self.model.elements();
+        let place = elements.position(|element| std::ptr::eq(element, self.element));
+        self.model.held(place.map(|place| (place, arguments)), of)
     }
 
     fn number(&self, arena: &mut Arena, parameter: usize) -> ScalarExpr {
@@ -301,6 +310,8 @@ pub(super) struct Law<'a> {
     pub(super) arguments: &'a [ScalarExpr],
     /// What is read of a joint or force, by its place.
     pub(super) reading: &'a dyn Fn(&mut Arena, usize, &Term) -> ScalarExpr,
+    /// The side that is held of an expression of the law.
+    pub(super) held: &'a dyn Fn(&LawTerm) -> Held,
 }
 
 impl Law<'_> {
@@ -333,6 +344,32 @@ impl Law<'_> {
             LawTerm::Setpoint(numbers) => {
                 ScalarExpr::Setpoint(numbers.map(|value| number(arena, value)))
             }
+            LawTerm::Side(switching) => self.side(arena, &switching.of),
+            LawTerm::Select(switching, parts) => {
+                let side = self.side(arena, &switching.of);
+                let parts = parts.each_ref().map(|part| self.expand(arena, part));
+                select(arena, side, parts)
+            }
+        }
+    }
+
+    /// The side of an expression.
+    fn side(&self, arena: &mut Arena, of: &LawTerm) -> ScalarExpr {
+        let held = match (self.held)(of) {
+            Some((held, is_opposite)) => {
+                let held = number(arena, held);
+                if is_opposite { -held } else { held }
+            }
+            None => Arena::ZERO,
+        };
+        match self.expand(arena, of) {
+            ScalarExpr::Constant(value) if held == Arena::ZERO => {
+                ScalarExpr::Constant(arena.side(held, value))
+            }
+            of => ScalarExpr::Side {
+                held,
+                of: Box::new(of),
+            },
         }
     }
 }
@@ -385,6 +422,20 @@ fn square(a: &ScalarExpr, b: &ScalarExpr) -> Option<ScalarExpr> {
             _ => None,
         },
         _ => None,
+    }
+}
+
+/// The first of two expressions where a side is not negative, else the second.
+fn select(arena: &mut Arena, side: ScalarExpr, parts: [ScalarExpr; 2]) -> ScalarExpr {
+    match (&side, &parts) {
+        (
+            ScalarExpr::Constant(side),
+            [ScalarExpr::Constant(first), ScalarExpr::Constant(second)],
+        ) => ScalarExpr::Constant(arena.select(*side, *first, *second)),
+        _ => ScalarExpr::Select {
+            side: Box::new(side),
+            parts: Box::new(parts),
+        },
     }
 }
 

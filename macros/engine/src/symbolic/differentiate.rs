@@ -188,6 +188,11 @@ impl ScalarExpr {
             Self::Angle(angle) => angle.value(space, motion),
             Self::Rate(inner) => inner.rate(space, motion),
             Self::State { value, .. } => *value,
+            Self::Side { held, of } => {
+                let of = of.value(space, motion);
+                space.arena.side(*held, of)
+            }
+            Self::Select { side, parts } => selected(space, motion, (side, parts), Self::value),
         }
     }
 
@@ -218,6 +223,8 @@ impl ScalarExpr {
             Self::Angle(angle) => angle.rate(space, motion),
             Self::Rate(_) => unreachable!("there is no rate of a rate in the language"),
             Self::State { place, .. } => motion.states[*place].value(space, motion),
+            Self::Side { .. } => Arena::ZERO,
+            Self::Select { side, parts } => selected(space, motion, (side, parts), Self::rate),
         }
     }
 
@@ -258,7 +265,9 @@ impl ScalarExpr {
             }
             Self::Angle(angle) => angle.bias(space, motion),
             Self::Rate(_) => unreachable!("there is no rate of a rate in the language"),
-            Self::State { .. } => unreachable!("the laws of joints hold no states"),
+            Self::State { .. } | Self::Side { .. } | Self::Select { .. } => {
+                unreachable!("the laws of joints hold no states, and do not switch")
+            }
         }
     }
 
@@ -297,9 +306,23 @@ impl ScalarExpr {
                 inner.pull_back(space, motion, seed, gradient);
             }
             Self::Angle(angle) => angle.pull_back(space, motion, seed, gradient),
-            Self::Rate(_) => unreachable!("only positions have a gradient in the language"),
+            Self::Rate(_) | Self::Side { .. } | Self::Select { .. } => {
+                unreachable!("only positions have a gradient in the language")
+            }
         }
     }
+}
+
+/// The one of two expressions that a side selects.
+fn selected(
+    space: &mut Space,
+    motion: &Motion,
+    (side, parts): (&ScalarExpr, &[ScalarExpr; 2]),
+    of: impl Fn(&ScalarExpr, &mut Space, &Motion) -> Expr,
+) -> Expr {
+    let side = side.value(space, motion);
+    let [first, second] = parts.each_ref().map(|part| of(part, space, motion));
+    space.arena.select(side, first, second)
 }
 
 fn weighted(

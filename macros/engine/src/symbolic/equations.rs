@@ -7,7 +7,7 @@ use super::fixed::{initial_orientation, number, triple};
 use super::scene::Scene;
 use super::vector::{self, Frame, Triple};
 use crate::model::inertia::rotation;
-use crate::model::{BodyKind, Model};
+use crate::model::{BodyKind, Model, Switch};
 
 /// Outputs over an arena.
 #[derive(Clone, Debug)]
@@ -235,6 +235,23 @@ pub(crate) fn state_rates(scene: &mut Scene) -> Vec<Expr> {
     let Scene { space, motion, .. } = scene;
     let rates = motion.states.iter();
     rates.map(|rate| rate.value(space, motion)).collect()
+}
+
+/// The expressions whose signs decide in laws: those that fulfil a condition.
+pub(crate) fn switches(
+    scene: &mut Scene,
+    model: &Model,
+    is_wanted: impl Fn(&Switch) -> bool,
+) -> Vec<Expr> {
+    let Scene {
+        space,
+        motion,
+        switches,
+        ..
+    } = scene;
+    let switches = switches.iter().zip(&model.switches);
+    let wanted = switches.filter(|(_, switch)| is_wanted(switch));
+    wanted.map(|(of, _)| of.value(space, motion)).collect()
 }
 
 /// The rates of the auxiliary variables.

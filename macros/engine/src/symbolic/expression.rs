@@ -40,6 +40,20 @@ pub enum ScalarExpr {
     Setpoint([Expr; 3]),
     /// The time derivative, which has no derivative of its own.
     Rate(Box<ScalarExpr>),
+    /// The side of an expression that switches.
+    Side {
+        /// The side that is held; zero where it is that of the expression.
+        held: Expr,
+        /// The expression.
+        of: Box<ScalarExpr>,
+    },
+    /// The first of two expressions where a side is not negative, else the second.
+    Select {
+        /// The side.
+        side: Box<ScalarExpr>,
+        /// The expressions.
+        parts: Box<[ScalarExpr; 2]>,
+    },
     /// A state of the user's own.
     State {
         /// Its place among these.

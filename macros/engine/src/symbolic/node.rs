@@ -176,6 +176,12 @@ pub enum Node {
     Exponential(Expr),
     /// The angle of a point, from sine and cosine.
     Angle(Expr, Expr),
+    /// The first operand where it is not zero, else the sign of the second.
+    Side(Expr, Expr),
+    /// The second operand where the first, a side, is not negative; else zero.
+    Above(Expr, Expr),
+    /// The second operand where the first, a side, is negative; else zero.
+    Below(Expr, Expr),
     /// A spline or a derivative of it, whose numbers are known when the generated code runs.
     Curve(Curve, Expr),
 }
@@ -192,7 +198,12 @@ impl Node {
     pub(super) const fn pair(self) -> (Option<Expr>, Option<Expr>) {
         match self {
             Self::Constant(_) | Self::Input(_) => (None, None),
-            Self::Add(a, b) | Self::Multiply(a, b) | Self::Angle(a, b) => (Some(a), Some(b)),
+            Self::Add(a, b)
+            | Self::Multiply(a, b)
+            | Self::Angle(a, b)
+            | Self::Side(a, b)
+            | Self::Above(a, b)
+            | Self::Below(a, b) => (Some(a), Some(b)),
             Self::Reciprocal(a)
             | Self::SquareRoot(a)
             | Self::Sign(a)
@@ -228,6 +239,9 @@ impl Node {
             Self::Cosine(a) => Key::new(10, a.0 as u64),
             Self::Exponential(a) => Key::new(11, a.0 as u64),
             Self::Angle(a, b) => Key::new(12, two(a, b)),
+            Self::Side(a, b) => Key::new(16, two(a, b)),
+            Self::Above(a, b) => Key::new(17, two(a, b)),
+            Self::Below(a, b) => Key::new(18, two(a, b)),
             Self::Curve(curve, a) => {
                 let kind = 13 + curve.derivative as u64;
                 Key::new(kind, (curve.spline as u64) << 32 | a.0 as u64)
@@ -242,6 +256,9 @@ impl Node {
             Self::Add(a, b) => Self::Add(other(a), other(b)),
             Self::Multiply(a, b) => Self::Multiply(other(a), other(b)),
             Self::Angle(a, b) => Self::Angle(other(a), other(b)),
+            Self::Side(a, b) => Self::Side(other(a), other(b)),
+            Self::Above(a, b) => Self::Above(other(a), other(b)),
+            Self::Below(a, b) => Self::Below(other(a), other(b)),
             Self::Reciprocal(a) => Self::Reciprocal(other(a)),
             Self::SquareRoot(a) => Self::SquareRoot(other(a)),
             Self::Sign(a) => Self::Sign(other(a)),
@@ -279,6 +296,13 @@ impl Node {
             Self::Cosine(a) => of(a).cos(),
             Self::Exponential(a) => of(a).exp(),
             Self::Angle(sine, cosine) => of(sine).atan2(of(cosine)),
+            Self::Side(held, a) => {
+                let held = of(held);
+                side(if held == 0.0 { of(a) } else { held })
+            }
+            Self::Above(side, a) if of(side) >= 0.0 => of(a),
+            Self::Below(side, a) if of(side) < 0.0 => of(a),
+            Self::Above(side, _) | Self::Below(side, _) => 0.0 * of(side),
             Self::Curve(..) => f64::NAN,
         }
     }
@@ -288,7 +312,25 @@ impl Node {
     pub const fn is_operation(self) -> bool {
         !matches!(
             self,
-            Self::Constant(_) | Self::Input(_) | Self::Sign(_) | Self::Clamp(_) | Self::Round(_)
+            Self::Constant(_)
+                | Self::Input(_)
+                | Self::Sign(_)
+                | Self::Clamp(_)
+                | Self::Round(_)
+                | Self::Side(..)
+                | Self::Above(..)
+                | Self::Below(..)
         )
+    }
+}
+
+/// The sign of a number: 1, -1, 0 at zero, NaN of NaN.
+pub(super) fn side(a: f64) -> f64 {
+    if a > 0.0 {
+        1.0
+    } else if a < 0.0 {
+        -1.0
+    } else {
+        a + 0.0
     }
 }

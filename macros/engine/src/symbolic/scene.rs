@@ -79,6 +79,8 @@ pub struct Scene {
     pub counters: Vec<CountedAngle>,
     /// The displacement of each joint.
     pub displacements: Vec<Option<ScalarExpr>>,
+    /// The expressions whose signs decide in laws.
+    pub switches: Vec<ScalarExpr>,
 }
 
 /// An angle over many turns, and what moves its auxiliary variable.
@@ -287,11 +289,29 @@ impl Scene {
             first_state,
             arguments: &[],
             reading: &reading,
+            held: &|of| model.held(None, of),
         };
         for state in &model.states {
             let rate = rate.expand(&mut space.arena, &state.rate);
             motion.states.push(rate);
         }
+        let switches = model.switches.iter().map(|switch| {
+            let (place, terms) = match &switch.arguments {
+                Some((place, terms)) => (Some(*place), &terms[..]),
+                None => (None, &[][..]),
+            };
+            let arena = &mut space.arena;
+            let arguments = terms.iter().zip(place.into_iter().cycle());
+            let arguments = arguments.map(|(term, place)| reading(arena, place, term));
+            let law = Law {
+                first_state,
+                arguments: &arguments.collect::<Vec<_>>(),
+                reading: &reading,
+                held: &|of| model.held(place.map(|place| (place, terms)), of),
+            };
+            law.expand(arena, &switch.of)
+        });
+        let switches = switches.collect();
         Self {
             space,
             motion,
@@ -305,6 +325,7 @@ impl Scene {
             effects,
             counters,
             displacements,
+            switches,
         }
     }
 

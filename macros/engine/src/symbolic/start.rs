@@ -89,6 +89,8 @@ pub(super) fn scalar(arena: &mut Arena, model: &Model, expr: &ScalarExpr) -> Exp
         ScalarExpr::Time
         | ScalarExpr::Setpoint(_)
         | ScalarExpr::Rate(_)
+        | ScalarExpr::Side { .. }
+        | ScalarExpr::Select { .. }
         | ScalarExpr::State { .. } => {
             unreachable!("the language refuses time, rates and laws in the reference configuration")
         }

@@ -5,7 +5,7 @@
 //! nothing else. `if` is decided here, and so is `%`; what names an element of another array,
 //! `links[k - 1]`, keeps its place until all names are known.
 
-use proc_macro2::{Literal, Span, TokenStream};
+use proc_macro2::{Literal, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{BinOp, Expr, ExprIf, Ident, Stmt, Type, TypeArray};
@@ -253,6 +253,17 @@ fn placed(expr: &Expr, words: Words<'_>, faults: &mut Faults) -> Option<Expr> {
                 inner(&mut field.base)?;
             }
         }
+        // One of a law is read there.
+        Expr::If(choice) if is_of_a_law(&choice.cond, words) => {
+            inner(&mut choice.cond)?;
+            let then = only_mut(&mut choice.then_branch);
+            let otherwise = choice.else_branch.as_mut();
+            let otherwise = otherwise.and_then(|(_, otherwise)| match &mut **otherwise {
+                Expr::Block(block) => only_mut(&mut block.block),
+                other => Some(other),
+            });
+            every([then, otherwise].into_iter().flatten().map(inner))?;
+        }
         Expr::If(choice) if words.index.is_some() => {
             let chosen = chosen(choice, words, faults)?;
             return placed(chosen, words, faults);
@@ -317,12 +328,32 @@ fn chosen<'a>(choice: &'a ExprIf, words: Words<'_>, faults: &mut Faults) -> Opti
 }
 
 /// What stands in braces.
-fn only<'a>(block: &'a syn::Block, faults: &mut Faults) -> Option<&'a Expr> {
+pub(crate) fn only<'a>(block: &'a syn::Block, faults: &mut Faults) -> Option<&'a Expr> {
     if let [Stmt::Expr(expr, None)] = &block.stmts[..] {
         return Some(expr);
     }
     faults.at(block, "expected one expression in these braces");
     None
+}
+
+/// The same to be changed; `None` where there is something else, which is refused later.
+fn only_mut(block: &mut syn::Block) -> Option<&mut Expr> {
+    match &mut block.stmts[..] {
+        [Stmt::Expr(expr, None)] => Some(expr),
+        _ => None,
+    }
+}
+
+/// Whether a condition speaks of more than the index and constants.
+fn is_of_a_law(condition: &Expr, words: Words<'_>) -> bool {
+    fn has(tokens: TokenStream, words: Words<'_>) -> bool {
+        tokens.into_iter().any(|token| match token {
+            TokenTree::Group(group) => has(group.stream(), words),
+            TokenTree::Ident(name) => words.value(&name).is_none() && !is_constant(&name),
+            _ => false,
+        })
+    }
+    has(condition.to_token_stream(), words)
 }
 
 /// Whether a field, or an argument of a law, has the name of the index.

@@ -61,9 +61,13 @@ where
             return Ok(());
         };
         self.begin_interactions()?;
+        self.stand(&mut hybrid, *time, state, true)?;
         let before = self.monitor.is_some().then(|| self.energies(*time, state));
         let done = self.call(&mut hybrid, Called::Controllers, *time, state)?;
-        self.switch(&mut hybrid, *time, state, true)?;
+        self.stand(&mut hybrid, *time, state, true)?;
+        if self.switch(&mut hybrid, *time, state, true)? {
+            self.stand(&mut hybrid, *time, state, true)?;
+        }
         self.account(before, *time, state);
         self.read_all(&mut hybrid, *time, state, |watch, readings| {
             watch.begin(readings);
@@ -120,7 +124,15 @@ where
             stops: self.log.flow.is_break(),
         };
         if !done.stops {
-            done = self.act(&mut hybrid, is_found, last_good)?;
+            let is_turned = self.turn(&mut hybrid, last_good.0, &last_good.1)?;
+            if is_turned {
+                self.stand(&mut hybrid, last_good.0, &last_good.1, false)?;
+                let unseen = self.log.unseen;
+                if unseen > 0 && self.schedule.at(last_good.0, unseen) {
+                    self.show(last_good.0, &last_good.1, companion);
+                }
+            }
+            done = self.act(&mut hybrid, is_found || is_turned, last_good)?;
             let is_switched = is_found && hybrid.is_switched;
             if done.moved || is_switched || done.stops && self.log.unseen > 0 {
                 self.show(last_good.0, &last_good.1, companion);
@@ -153,10 +165,16 @@ where
         }
         hybrid.is_switched = false;
         done.moved = self.switch(hybrid, time, state, false)?;
+        if done.moved {
+            self.stand(hybrid, time, state, true)?;
+        }
         if is_found {
             let handled = self.call(hybrid, Called::Handlers, time, state)?;
             if handled.changed {
-                self.switch(hybrid, time, state, true)?;
+                self.stand(hybrid, time, state, handled.moved)?;
+                if self.switch(hybrid, time, state, true)? {
+                    self.stand(hybrid, time, state, true)?;
+                }
             }
             done.moved |= handled.moved;
             done.stops = handled.stops;
@@ -164,7 +182,10 @@ where
         if !done.stops && time < hybrid.end {
             let controlled = self.call(hybrid, Called::Controllers, time, state)?;
             if controlled.changed {
-                self.switch(hybrid, time, state, true)?;
+                self.stand(hybrid, time, state, controlled.moved)?;
+                if self.switch(hybrid, time, state, true)? {
+                    self.stand(hybrid, time, state, true)?;
+                }
             }
             done.stops = controlled.stops;
         }

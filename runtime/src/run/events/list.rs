@@ -12,6 +12,7 @@ use crate::nonsmooth::status::Tracked;
 use crate::run::checkpoint::Checkpoint;
 use crate::run::events::changes::Changes;
 use crate::run::events::context::Event;
+use crate::run::events::switching::Switching;
 use crate::run::events::watch::{Period, Watch, is_same};
 use crate::run::output::IntoFlow;
 use crate::run::past::Past;
@@ -201,6 +202,8 @@ pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
     pub(super) is_switched: bool,
     /// How often modes of interactions changed at once.
     pub(super) changes: Changes<S>,
+    /// The laws that switch, where there are any.
+    pub(crate) switching: Option<&'h mut Switching<S, M>>,
 }
 
 impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
@@ -250,6 +253,7 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             is_found: false,
             is_switched: false,
             changes: Changes::none(),
+            switching: None,
         })
     }
 
@@ -264,9 +268,9 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
         self
     }
 
-    /// Hands over what events, controllers and interactions remember.
+    /// Hands over what events, controllers, interactions and laws that switch remember.
     pub(crate) fn remember(&mut self, list: &[Tracked<S, M>], memory: &mut Memory<'_, S>) {
-        if self.watches || !list.is_empty() {
+        if self.watches || self.switching.is_some() || !list.is_empty() {
             memory.number(&mut self.longest);
             memory.flag(&mut self.is_fresh);
         }
@@ -275,6 +279,9 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
         }
         for tracked in list {
             tracked.remember(memory);
+        }
+        if let Some(switching) = &mut self.switching {
+            switching.remember(memory);
         }
         let _ = self.list.each(&mut |happening| {
             if let Some(watch) = happening.watch() {

@@ -5,7 +5,8 @@
 //! `search.rs` looks into a step, on the dense output of the method. `handling.rs` calls handlers
 //! and controllers between two segments. `hybrid.rs` is what a user writes, `single_step.rs` the
 //! same for a `Stepper`. `modes.rs` finds the modes of interactions anew at every such instant,
-//! `looked.rs` where they end, and `stepper_modes.rs` both for a `Stepper`.
+//! `looked.rs` where they end, and `stepper_modes.rs` both for a `Stepper`. `sides.rs` turns laws that
+//! switch, `switching.rs` remembers their sides, and `instants.rs` knows those of the time ahead.
 //!
 //! A sign, not a value, says that a reading has passed: it is right whatever a correction after the
 //! step does to the last digits. Where a run starts at a zero, or a handler leaves a reading there,
@@ -16,11 +17,14 @@ pub(crate) mod changes;
 pub(crate) mod context;
 mod handling;
 pub(crate) mod hybrid;
+mod instants;
 pub(crate) mod list;
 mod looked;
 mod modes;
 pub(crate) mod root;
 mod search;
+mod sides;
 mod single_step;
 pub(crate) mod stepper_modes;
+pub(crate) mod switching;
 pub(crate) mod watch;

@@ -12,6 +12,7 @@ use crate::mechanism::orientations::with_unit_orientations;
 use crate::run::events::list::{Happening, Hybrid};
 use crate::run::events::looked::Looked;
 use crate::run::events::root::{MOST, locate};
+use crate::run::events::switching::{Switching, of, sliding, undecided};
 use crate::run::events::watch::{is_same, looks};
 use crate::run::sample::Sample;
 use crate::run::segments::Run;
@@ -35,7 +36,8 @@ where
         integration: &mut K,
         (start, near): (S, &M::State<S>),
     ) -> Result<Found<S, M>, Fault> {
-        let watches = |hybrid: &&mut Hybrid<'_, S, M>| hybrid.watches || A::INTERACTS;
+        let switches = Switching::<S, M>::watches();
+        let watches = |hybrid: &&mut Hybrid<'_, S, M>| hybrid.watches || A::INTERACTS || switches;
         let Some(hybrid) = self.hybrid.as_mut().filter(watches) else {
             return Ok(None);
         };
@@ -88,6 +90,11 @@ where
                 };
                 Ok(())
             })?;
+            let switch = self.look_at_switches(hybrid, before, (time, &bodies))?;
+            first = match (first, switch) {
+                (Some(first), Some(switch)) => Some(first.min(switch)),
+                (first, switch) => first.or(switch),
+            };
             let Some(root) = first else {
                 hybrid.list.each(&mut |happening| {
                     if let Some(watch) = happening.watch() {
@@ -96,6 +103,12 @@ where
                     Ok(())
                 })?;
                 self.modes_go_on();
+                if let Some(switching) = &mut hybrid.switching {
+                    switching.each(|_, watch| {
+                        watch.go_on();
+                        Ok(())
+                    })?;
+                }
                 before = time;
                 continue;
             };
@@ -103,14 +116,21 @@ where
             let root = if is_same(root, time) { time } else { root };
             let bodies = self.bodies_at(root)?;
             let longest = hybrid.longest;
+            let mut is_found = false;
             hybrid.list.each(&mut |happening| {
                 let reading = self.read(happening, root, &bodies)?;
-                happening
-                    .watch()
-                    .map_or(Ok(()), |watch| watch.take(root, reading, longest))
+                let Some(watch) = happening.watch() else {
+                    return Ok(());
+                };
+                watch.take(root, reading, longest)?;
+                is_found |= watch.is_found();
+                Ok(())
             })?;
             self.take_ends_of_modes(root, &bodies)?;
-            hybrid.is_found = true;
+            let mut modes = self.dynamics.tracked().iter();
+            is_found |= modes.any(|tracked| tracked.status.get().is_found);
+            self.take_switches(hybrid, root, &bodies)?;
+            hybrid.is_found = is_found;
             return Ok(Some((root, bodies)));
         }
         hybrid.is_fresh = false;
@@ -142,6 +162,71 @@ where
             watch.keep(reading, root);
         }
         Ok(root)
+    }
+
+    /// Where the first switch of the state passes its zero between two times, of which the bodies
+    /// at the second are known.
+    fn look_at_switches(
+        &mut self,
+        hybrid: &mut Hybrid<'_, S, M>,
+        before: S,
+        (time, bodies): (S, &M::State<S>),
+    ) -> Result<Option<S>, Fault> {
+        let switching = hybrid.switching.as_mut();
+        let Some(switching) = switching.filter(|_| Switching::<S, M>::watches()) else {
+            return Ok(None);
+        };
+        let readings = self.dynamics.switches(time, bodies);
+        let mut first: Option<S> = None;
+        switching.each(|switch, watch| {
+            let reading = of::<S, M>(&readings, switch);
+            if reading.to_f64().is_nan() {
+                return Err(undecided(switch, time.to_f64()));
+            }
+            let mut root = None;
+            if watch.is_left(reading) {
+                let read = |time: S| {
+                    let bodies = self.bodies_at(time)?;
+                    let readings = self.dynamics.switches(time, &bodies);
+                    Ok::<S, Fault>(watch.beyond(of::<S, M>(&readings, switch)))
+                };
+                let found = locate((before, time), watch.beyond(reading), read, MOST)?;
+                root = Some(found.plain());
+                first = match first.zip(root) {
+                    Some((first, root)) => Some(first.min(root)),
+                    None => root,
+                };
+            }
+            watch.keep(reading, root);
+            Ok(())
+        })?;
+        Ok(first)
+    }
+
+    /// Turns the switches that pass their zeros at a time.
+    fn take_switches(
+        &self,
+        hybrid: &mut Hybrid<'_, S, M>,
+        time: S,
+        bodies: &M::State<S>,
+    ) -> Result<(), Fault> {
+        let longest = hybrid.longest;
+        let switching = hybrid.switching.as_mut();
+        let Some(switching) = switching.filter(|_| Switching::<S, M>::watches()) else {
+            return Ok(());
+        };
+        let readings = self.dynamics.switches(time, bodies);
+        let mut is_found = false;
+        switching.each(|switch, watch| {
+            let reading = of::<S, M>(&readings, switch);
+            watch
+                .take(time, reading, longest)
+                .map_err(|_| sliding(switch, time))?;
+            is_found |= watch.is_found();
+            Ok(())
+        })?;
+        switching.is_found = is_found;
+        Ok(())
     }
 
     /// The reading of a condition; zero where there is none.

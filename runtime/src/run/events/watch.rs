@@ -28,6 +28,18 @@ enum Side {
     Unknown,
 }
 
+impl Side {
+    fn of<S: Real>(reading: S) -> Self {
+        if reading > S::zero() {
+            Self::Above
+        } else if reading < S::zero() {
+            Self::Below
+        } else {
+            Self::Unknown
+        }
+    }
+}
+
 /// A reading below so many units of round-off is at zero, at a start and after a handler.
 const AT_ZERO: f64 = 8.0;
 
@@ -211,7 +223,7 @@ impl<S: Real> Watch<S> {
         self.side = match self.side {
             Side::Below => Side::Above,
             Side::Above => Side::Below,
-            Side::Unknown => Side::Unknown,
+            Side::Unknown => Side::of(reading),
         };
         Ok(())
     }
@@ -240,6 +252,113 @@ impl<S: Real> Watch<S> {
             self.stand(readings, self.zero);
         } else if !is_found && readings[0] != self.reading {
             self.stand(readings, Self::round_off());
+        }
+    }
+}
+
+/// How many numbers a watch is, besides name and direction.
+pub(crate) const NUMBERS: usize = 7;
+
+/// As a switch of a law, whose side is always known or at rest at zero.
+impl<S: Real> Watch<S> {
+    /// All that it remembers; NaN where there is no number.
+    pub(crate) fn numbers(&self) -> [S; NUMBERS] {
+        let optional = |number: Option<S>| number.unwrap_or_else(|| S::constant(f64::NAN));
+        let (root, last) = (optional(self.root), optional(self.last));
+        let at_once = S::constant(self.at_once as f64);
+        let Self {
+            zero,
+            reading,
+            scale,
+            ..
+        } = *self;
+        [self.side(), zero, reading, scale, root, last, at_once]
+    }
+
+    /// What remembers these.
+    pub(crate) fn of_numbers(
+        name: &'static str,
+        crossing: Crossing,
+        [side, zero, reading, scale, root, last, at_once]: [S; NUMBERS],
+    ) -> Self {
+        let optional = |number: S| (!number.to_f64().is_nan()).then_some(number);
+        Self {
+            name,
+            crossing,
+            side: Side::of(side),
+            zero,
+            reading,
+            scale,
+            root: optional(root),
+            last: optional(last),
+            at_once: at_once.to_f64() as usize,
+        }
+    }
+
+    /// The side of zero: 1, -1, or 0 at rest there.
+    pub(crate) fn side(&self) -> S {
+        match self.side {
+            Side::Below => -S::one(),
+            Side::Above => S::one(),
+            Side::Unknown => S::zero(),
+        }
+    }
+
+    /// Takes a side anew, at zero until a reading is beyond round-off.
+    pub(crate) fn begin_at(&mut self, side: S) {
+        (self.side, self.zero, self.root) = (Side::of(side), Self::round_off(), None);
+    }
+
+    /// The side of a reading that is not at zero.
+    pub(crate) fn clear_side(&self, reading: S) -> Option<S> {
+        let side = || {
+            if reading > S::zero() {
+                S::one()
+            } else {
+                -S::one()
+            }
+        };
+        (reading.abs() > Self::round_off()).then(side)
+    }
+
+    /// Whether its side is that of a reading. One at zero keeps the side that it has, if it has
+    /// one, unless the state was moved.
+    pub(crate) fn stays(&self, reading: S, is_moved: bool) -> bool {
+        let zero = self.zero.max(Self::round_off());
+        if reading.abs() <= zero {
+            !is_moved && self.side != Side::Unknown
+        } else {
+            Side::of(reading) == self.side
+        }
+    }
+
+    /// Takes a reading on its side, or at zero.
+    pub(crate) fn read(&mut self, reading: S) {
+        self.reading = reading;
+        if reading.abs() > self.zero {
+            self.zero = S::zero();
+        }
+    }
+
+    /// Takes the reading in the state that was found, after its correction: nobody handles it.
+    pub(crate) fn found_at(&mut self, reading: S) {
+        self.correct(reading);
+        self.root = None;
+    }
+
+    /// Whether a reading has left its side, or the zero where it rests.
+    pub(crate) fn is_left(&self, reading: S) -> bool {
+        match self.side {
+            Side::Unknown => self.beyond(reading) > S::zero(),
+            _ => self.is_met(reading),
+        }
+    }
+
+    /// A reading so that it is negative before that.
+    pub(crate) fn beyond(&self, reading: S) -> S {
+        match self.side {
+            Side::Unknown => reading.abs() - self.zero.max(Self::round_off()),
+            _ => self.upwards(reading),
         }
     }
 }

@@ -155,3 +155,37 @@ fn a_spline_is_left_to_the_evaluation() {
     let tape = Tape::new(&arena, &all);
     assert_eq!(tape.evaluate(|_| Some(1.0)), None);
 }
+
+#[test]
+fn sides_fold_where_both_are_known_and_select_exactly() {
+    let mut arena = Arena::new();
+    let (x, y) = two_inputs(&mut arena);
+    let held = arena.input(Input::Varying(0));
+    for (number, sign) in [(3.0, 1.0), (-0.5, -1.0), (0.0, 0.0)] {
+        let constant = arena.constant(number);
+        let side = arena.side(Arena::ZERO, constant);
+        assert_eq!(arena.literal(side), Some(sign));
+    }
+    let minus = -Arena::ONE;
+    assert_eq!(arena.side(minus, Arena::ONE), minus);
+    assert_eq!(arena.select(minus, x, y), y);
+    assert_eq!(arena.select(Arena::ONE, x, y), x);
+    let side = arena.side(held, x);
+    assert_eq!(arena.stage(side), Stage::State);
+    assert_eq!(arena.select(side, y, y), y);
+    let (chosen, opposite) = (arena.select(side, x, y), arena.select(side, -x, -y));
+    assert_eq!(chosen, -opposite);
+    let values = |held: f64, x: f64| {
+        evaluate(&arena, &[side, chosen], |input| match input {
+            Input::Varying(_) => Some(held),
+            Input::Coordinate(0) => Some(x),
+            _ => Some(0.1 + 0.2),
+        })
+    };
+    let y = Some(0.1 + 0.2);
+    assert_eq!(values(0.0, 1e30), [Some(1.0), Some(1e30)]);
+    assert_eq!(values(0.0, -1e30), [Some(-1.0), y]);
+    assert_eq!(values(1.0, -1e30), [Some(1.0), Some(-1e30)]);
+    assert_eq!(values(-1.0, 7.0), [Some(-1.0), y]);
+    assert_eq!(values(0.0, 0.0), [Some(0.0), Some(0.0)]);
+}

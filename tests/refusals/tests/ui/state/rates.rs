@@ -46,7 +46,7 @@ struct Motor {
     functions: f64,
     #[state(rate = bearings[2].rate)]
     beyond: f64,
-    #[state(rate = if current > 0.0 { 1.0 } else { 0.0 })]
+    #[state(rate = if current { 1.0 } else { 0.0 })]
     branch: f64,
     #[state(rate = 1.0)]
     time: f64,

@@ -1,0 +1,318 @@
+//! The sides of laws that switch, in a run: held within a step, changed between two.
+//!
+//! A step is then that of a smooth system, whatever the method. `search.rs` finds where an
+//! expression of the state passes its zero, `instants.rs` knows it of the time ahead. Here the side
+//! is turned, and the integration begins anew.
+
+use crate::dynamics::Dynamics;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::{OneStep as _, Rk4, System as _};
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::orientations::with_unit_orientations;
+use crate::mechanism::switch::Switch;
+use crate::run::events::instants::Instants;
+use crate::run::events::list::Hybrid;
+use crate::run::events::switching::{Switching, of, put, sliding, undecided};
+use crate::run::events::watch::is_same;
+use crate::run::segments::Run;
+use crate::state::vector::{Array as _, Vector as _};
+
+/// By so much (m, rad, or of their rates) a trial moves the mechanism, at the most.
+const LITTLE: f64 = 1e-4;
+
+/// How much longer the second trial is.
+const LONGER: f64 = 64.0;
+
+/// How often the sides may be found anew at an instant, besides once for each.
+const ROUNDS: usize = 8;
+
+impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// Whether the integration begins anew because a law has switched. Turns the sides of those
+    /// whose zeros were found, in a state as it was corrected.
+    pub(super) fn turn(
+        &mut self,
+        hybrid: &mut Hybrid<'_, S, M>,
+        time: S,
+        state: &M::State<S>,
+    ) -> Result<bool, Fault> {
+        let Some(switching) = &mut hybrid.switching else {
+            return Ok(false);
+        };
+        let readings = self.dynamics.switches(time, state);
+        let is_found = core::mem::take(&mut switching.is_found);
+        if is_found {
+            switching.each(|switch, watch| {
+                watch.found_at(of::<S, M>(&readings, switch));
+                Ok(())
+            })?;
+        }
+        let instant = switching.instant.take();
+        let is_due = instant.is_some_and(|instant| time >= instant || is_same(time, instant));
+        let (now, end) = (time.to_f64(), hybrid.end.to_f64());
+        if is_due {
+            for switch in M::SWITCHES {
+                if of::<S, M>(&switching.due, switch) != S::zero() {
+                    let mut watch = switching.watch(switch);
+                    let instants = Instants::<M>::new(self.dynamics.parameters());
+                    let side = watch.side().to_f64();
+                    let side = instants.side_after(switch, side, now, end);
+                    watch.begin_at(S::constant(side));
+                    switching.keep(switch, &watch);
+                }
+            }
+        }
+        if is_found || is_due {
+            hybrid.is_fresh = true;
+            self.hold(hybrid);
+        }
+        Ok(is_found || is_due)
+    }
+
+    /// Takes the sides of a state, those at a zero by which way the motion goes. What has just been
+    /// found at its zero keeps the side that it has been turned to, unless the state was moved.
+    pub(super) fn stand(
+        &mut self,
+        hybrid: &mut Hybrid<'_, S, M>,
+        time: S,
+        state: &M::State<S>,
+        is_moved: bool,
+    ) -> Result<(), Fault> {
+        if hybrid.switching.is_none() {
+            return Ok(());
+        }
+        let mut is_new = is_moved;
+        // What an expression holds stands before it, so that a round is enough for most.
+        for _ in 0..M::SWITCHES.len() + ROUNDS {
+            self.hold(hybrid);
+            if !self.stand_once(hybrid, time, state, is_new)? {
+                hybrid.is_fresh = true;
+                self.hold(hybrid);
+                return Ok(());
+            }
+            is_new = false;
+        }
+        let first = M::SWITCHES.first();
+        first.map_or(Ok(()), |switch| Err(sliding(switch, time)))
+    }
+
+    /// Whether a side was changed.
+    fn stand_once(
+        &mut self,
+        hybrid: &mut Hybrid<'_, S, M>,
+        time: S,
+        state: &M::State<S>,
+        is_moved: bool,
+    ) -> Result<bool, Fault> {
+        let bounds = [hybrid.end - time, hybrid.longest];
+        let end = hybrid.end.to_f64();
+        let Some(switching) = &mut hybrid.switching else {
+            return Ok(false);
+        };
+        let mut is_changed = false;
+        for switch in M::SWITCHES {
+            let mut watch = switching.watch(switch);
+            let before = watch.side();
+            if switch.is_of_time {
+                let instants = Instants::<M>::new(self.dynamics.parameters());
+                let now = time.to_f64();
+                let reading = instants.at(switch, now);
+                if reading.is_nan() {
+                    return Err(undecided(switch, now));
+                }
+                // A jump by another one; the zeros of its own are found as such.
+                let is_beyond = before.to_f64() * reading < -f64::EPSILON.sqrt();
+                // One that comes to rest at zero has no sign any more.
+                if reading == 0.0 || before == S::zero() || is_beyond {
+                    let side = instants.side_behind(switch, now, end);
+                    watch.begin_at(S::constant(side));
+                }
+            } else {
+                let reading = of::<S, M>(&self.dynamics.switches(time, state), switch);
+                if reading.to_f64().is_nan() {
+                    return Err(undecided(switch, time.to_f64()));
+                }
+                // Exactly zero may be where it comes to rest.
+                if !watch.stays(reading, is_moved || reading == S::zero()) {
+                    let side = match watch.clear_side(reading) {
+                        Some(side) => side,
+                        None => self.side_of_motion(bounds, switch, (time, state))?,
+                    };
+                    watch.begin_at(side);
+                }
+                watch.read(reading);
+            }
+            if watch.side() != before {
+                is_changed = true;
+                self.dynamics.hold(switch, watch.side());
+            }
+            switching.keep(switch, &watch);
+        }
+        Ok(is_changed)
+    }
+
+    /// The side of an expression at its zero by which way the motion goes; 0 where it rests there.
+    /// By what is left of the run (s), and the longest step so far.
+    fn side_of_motion(
+        &mut self,
+        [left, longest]: [S; 2],
+        switch: &Switch,
+        (time, state): (S, &M::State<S>),
+    ) -> Result<S, Fault> {
+        let held = of::<S, M>(self.dynamics.parameters(), switch);
+        let start = self.dynamics.nearest(state);
+        let seen = self.dynamics.seen();
+        let rates = self.dynamics.rates(time, &start)?;
+        let mut fastest = S::zero();
+        rates.for_each(|rate| fastest = fastest.max(rate.abs()));
+        let longest = if longest > S::zero() {
+            left.min(longest)
+        } else {
+            left
+        };
+        let mut step = longest;
+        if fastest * step > S::constant(LITTLE) {
+            step = S::constant(LITTLE).quotient(fastest);
+        }
+        let mut side = S::zero();
+        for length in [S::one(), S::constant(LONGER)] {
+            let step = (length * step).min(longest);
+            // As the law reads itself: the way that it goes must be right on the side it leads to.
+            self.dynamics.hold(switch, S::zero());
+            side = self.way(switch, (time, state), step)?;
+            if side == S::zero() {
+                continue;
+            }
+            self.dynamics.hold(switch, side);
+            let way = self.way(switch, (time, state), step)?;
+            if way == -side {
+                self.dynamics.hold(switch, -side);
+                if self.way(switch, (time, state), step)? != -side {
+                    return Err(sliding(switch, time));
+                }
+                side = -side;
+            }
+            break;
+        }
+        self.dynamics.hold(switch, held);
+        self.dynamics.recall(seen);
+        Ok(side)
+    }
+
+    /// The sign of what an expression changes by in a step.
+    fn way(
+        &mut self,
+        switch: &Switch,
+        (time, state): (S, &M::State<S>),
+        step: S,
+    ) -> Result<S, Fault> {
+        let before = of::<S, M>(&self.dynamics.switches(time, state), switch);
+        let mut moved = self.dynamics.nearest(state);
+        Rk4.step(&mut self.dynamics, time, &mut moved, step)?;
+        let bodies = self.dynamics.bodies_near(&moved, state);
+        let after = of::<S, M>(&self.dynamics.switches(time + step, &bodies), switch);
+        let change = after - before;
+        let digits = S::constant(8.0) * S::EPSILON * before.abs().max(S::one());
+        Ok(if change > digits {
+            S::one()
+        } else if change < -digits {
+            -S::one()
+        } else {
+            S::zero()
+        })
+    }
+
+    /// The sides as they are kept.
+    pub(crate) fn hold(&mut self, hybrid: &Hybrid<'_, S, M>) {
+        if let Some(switching) = &hybrid.switching {
+            for switch in M::SWITCHES {
+                self.dynamics.hold(switch, switching.watch(switch).side());
+            }
+        }
+    }
+
+    /// The next instant (s) at which a switch of the time alone passes its zero, up to a time.
+    /// Those at the present one are turned at once.
+    pub(crate) fn next_switch(&mut self, from: S, until: S) -> Result<S, Fault> {
+        if !M::SWITCHES.iter().any(|switch| switch.is_of_time) {
+            return Ok(until);
+        }
+        let Some(mut hybrid) = self.hybrid.take() else {
+            return Ok(until);
+        };
+        let found = match &mut hybrid.switching {
+            Some(switching) => self.next_instant(switching, from, until),
+            None => Ok(until),
+        };
+        self.hybrid = Some(hybrid);
+        found
+    }
+
+    fn next_instant(
+        &mut self,
+        switching: &mut Switching<S, M>,
+        from: S,
+        until: S,
+    ) -> Result<S, Fault> {
+        'anew: for _ in 0..M::SWITCHES.len() + ROUNDS {
+            let instants = Instants::<M>::new(self.dynamics.parameters());
+            let (mut next, mut due) = (until, M::Parameters::<S>::zeros());
+            let mut is_due = false;
+            for switch in M::SWITCHES.iter().filter(|switch| switch.is_of_time) {
+                let mut watch = switching.watch(switch);
+                let side = watch.side().to_f64();
+                let stretch = (from.to_f64(), next.to_f64());
+                let Some(root) = instants.first(switch, side, stretch)? else {
+                    continue;
+                };
+                let root = S::constant(root);
+                if is_same(root, from) {
+                    let side = instants.side_after(switch, side, stretch.0, until.to_f64());
+                    watch.begin_at(S::constant(side));
+                    switching.keep(switch, &watch);
+                    self.dynamics.hold(switch, watch.side());
+                    continue 'anew;
+                }
+                if !(is_due && is_same(root, next)) {
+                    due = M::Parameters::<S>::zeros();
+                    next = if is_same(root, until) { until } else { root };
+                }
+                put::<S, M>(&mut due, switch, S::one());
+                is_due = true;
+            }
+            switching.instant = is_due.then_some(next);
+            switching.due = due;
+            return Ok(next);
+        }
+        let mut of_time = M::SWITCHES.iter().filter(|switch| switch.is_of_time);
+        of_time
+            .next()
+            .map_or(Ok(until), |switch| Err(undecided(switch, from.to_f64())))
+    }
+}
+
+impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    /// The expressions whose signs decide in laws, in a state of the bodies.
+    pub(crate) fn switches(&self, time: S, bodies: &M::State<S>) -> M::Parameters<S> {
+        let mut readings = M::Parameters::<S>::zeros();
+        let bodies = with_unit_orientations::<S, M>(bodies);
+        M::switches_into(self.constants(), time, &bodies, &mut readings);
+        readings
+    }
+}
