@@ -37,13 +37,13 @@ pub struct Measures {
 pub const COMPARE: Measures = Measures {
     name: "compare",
     feature: "compare",
-    seconds: [Some(81), None],
+    seconds: [Some(81), Some(1070)],
 };
 /// `study arms`.
 pub const ARMS: Measures = Measures {
     name: "arms",
     feature: "arms",
-    seconds: [None, None],
+    seconds: [Some(140), Some(140)],
 };
 /// `study trade`.
 pub const TRADE: Measures = Measures {

@@ -197,8 +197,10 @@ where
     /// [`IndependentCoordinates::state`] do.
     ///
     /// # Errors
-    /// What a step refuses; [`IndependentCoordinates::mass`]; [`Fault::RatesNotFinite`] where a
-    /// cost or its gradient is not finite. States of the user's own are refused by name.
+    /// - What a step refuses, and [`IndependentCoordinates::mass`].
+    /// - [`Fault::RatesNotFinite`]: a cost or its gradient is not finite.
+    /// - [`Fault::StateLeftOut`] of states of the user's own, [`Fault::SwitchLeftOut`] of laws that
+    ///   switch.
     pub fn gradient<const U: usize, const P: usize>(
         &self,
         start: &M::JointState<S>,
@@ -208,6 +210,9 @@ where
         cost: impl Fn(&Instant<'_, M, U, S>) -> Lifted<S>,
     ) -> Result<Gradient<M::JointState<S>, N, U, P, S>, Fault> {
         bodies_alone::<M>(LeavesOut::Linearisation)?;
+        if let Some(switch) = M::SWITCHES.first() {
+            return Err(Fault::SwitchLeftOut { law: switch.law });
+        }
         let states = self.states(start, held, controls)?;
         let carrying = self.formulation.carrying();
         let mut along = Backwards {

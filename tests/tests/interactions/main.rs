@@ -12,6 +12,7 @@ mod faults;
 mod loops;
 mod shafts;
 mod steps;
+mod switched;
 
 use holonom::prelude::*;
 

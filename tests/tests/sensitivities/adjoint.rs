@@ -259,3 +259,31 @@ fn of_a_cart_is_the_closed_form() {
     let bad = run.gradient(&start, [h.push], &[[1.0]], [], |_| Forward::fixed(f64::NAN));
     assert!(bad.is_err());
 }
+
+/// What would be left out is refused by name.
+#[test]
+fn of_laws_that_switch_is_refused() {
+    /// A block with a spring behind a clearance.
+    #[derive(Clone, Copy, Mechanism)]
+    #[mechanism(coordinates = "joints", kernels = [mass])]
+    struct Block {
+        #[input]
+        push: f64,
+        #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0])]
+        block: Body,
+        #[joint(between = [ground, block], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+        rail: Prismatic,
+        #[force(
+            between = [ground, block], head = [-5.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0],
+            force = push - max(0.0, length - 5.1)
+        )]
+        stop: Actuator,
+    }
+
+    let (block, h) = (Block::default(), Block::HANDLES);
+    let space = block.coordinates([h.rail]).expect("it slides");
+    let start = space.state([0.0], [0.0]).expect("regular");
+    let run = space.adjoint(StandardLagrange, Rk4::every(0.1));
+    let found = run.gradient(&start, [h.push], &[[1.0]], [], |_| Forward::fixed(0.0));
+    assert_eq!(found.err(), Some(Fault::SwitchLeftOut { law: "stop" }));
+}
