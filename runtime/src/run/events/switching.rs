@@ -1,8 +1,8 @@
 //! What a run remembers of the switches of its mechanism: a [`Watch`] for each.
 //!
 //! There may be any number of them, and nothing is on a heap: each number of a watch is kept in an
-//! array as long as that of the parameters, where the sides of the switches have their places. A run
-//! of a mechanism without switches has none of these arrays.
+//! array as long as that of the parameters, where the sides of the switches have their places. A
+//! run of a mechanism without switches has none of these arrays.
 
 use crate::error::Fault;
 use crate::integrate::Memory;
