@@ -43,7 +43,7 @@ fn a_falling_arm_stays_within_the_limits_of_its_file() -> Result<(), Box<dyn std
         .initial_state(start(&panda)?)
         .limits()
         .every_period(0.4, |sample, inputs| {
-            let is_opened = (sample.time() / 0.4).round() as usize % 2 == 0;
+            let is_opened = (5.0 * sample.time() + 0.5).rem_euclid(4.0) < 1.0;
             inputs.panda_finger_joint1_force = if is_opened { 2.0 } else { -2.0 };
         })
         .run(0.0..=2.0, every(0.01), |sample| {
