@@ -170,7 +170,10 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 
     /// Leaves the capacity by a load.
     pub(super) fn take_load(&self, load: S) {
-        if let Some(friction) = self.friction() {
+        if let Some(friction) = self
+            .friction()
+            .filter(|friction| friction.bearing.is_some())
+        {
             let capacity = friction.at_rest() * load;
             self.update(|status| status.capacity = capacity);
         }
