@@ -1,10 +1,10 @@
 //! Scalars, vectors and Euler parameters: nothing here knows a mechanism.
 //!
 //! `Scalar` has what kernels need, and no comparison but `select`. `Real` adds what integrators
-//! need. The time of a stepper is a sum of two numbers (`clock.rs`): one holds what the last
-//! digits of the other leave over. `versine.rs` turns pairs by increments. `angles.rs` reads
-//! rotations as three angles. `spline` has functions from tables. `side.rs` is what laws that switch
-//! are made of.
+//! need. The time of a stepper is a sum of two numbers (`clock.rs`): one holds what the last digits
+//! of the other leave over. `versine.rs` turns pairs by increments. `angles.rs` reads rotations as
+//! three angles. `spline` has functions from tables. `side.rs` is what laws that switch are made
+//! of.
 
 pub(crate) mod angles;
 pub(crate) mod clock;

@@ -1,6 +1,6 @@
 //! What happens in time, in the loop of a controller: stops, dry friction, a clutch, the end of a
-//! step where a reading passes zero, a current as a state, a law from a table. Each is compared with
-//! its closed form.
+//! step where a reading passes zero, a current as a state, a law from a table. Each is compared
+//! with its closed form.
 
 use holonom::forces::Actuator;
 use holonom::joints::PointOnLine;

@@ -38,8 +38,8 @@ fn shaft() -> Shaft {
     Shaft::new(floor, height, bounce).expect("acceptable")
 }
 
-/// The displacement until the ball meets the lid or the floor a second time: it meets the lid first,
-/// if that is low enough, and then the floor.
+/// The displacement until the ball meets the lid or the floor a second time: it meets the lid
+/// first, if that is low enough, and then the floor.
 fn bounced(time: f64, [floor, height, bounce]: [f64; 3]) -> f64 {
     let thrown =
         |from: f64, rate: f64, since: f64| from + rate * since - 0.5 * GRAVITY * since * since;

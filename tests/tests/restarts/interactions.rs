@@ -71,8 +71,8 @@ fn interactions(mill: &Mill) -> [Interaction<f64, Mill>; INTERACTIONS] {
     ]
 }
 
-/// A run with a controller, a handler that engages the clutch, one that lets it go, a dog that holds
-/// the shaft, and one that gives the hammer a push.
+/// A run with a controller, a handler that engages the clutch, one that lets it go, a dog that
+/// holds the shaft, and one that gives the hammer a push.
 fn run<I, C>(method: I, from: Option<&Kept>, end: f64) -> (RunReport<f64, Mill>, Shown, Vec<Kept>)
 where
     C: Coordinates<Mill>,

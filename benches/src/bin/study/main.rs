@@ -1,9 +1,9 @@
 //! The studies of the workspace: `cargo run --release --bin study` reproduces chapter 15 of Flores
-//! (2015), `study compare` shows what an evaluation costs, `study arms` what the equations of motion
-//! of robots cost beside other programs, `study trade` what accuracy costs,
-//! `study recommend` which setting does, `study extremes` where the numerics stop to hold,
-//! `study ensemble` what many rows of drawn parameters give, and `study show` how a problem moves.
-//! All but the first are a program of their own, which is built where it is asked for.
+//! (2015), `study compare` shows what an evaluation costs, `study arms` what the equations of
+//! motion of robots cost beside other programs, and `study trade` what accuracy costs.
+//! `study recommend` says which setting does, `study extremes` where the numerics stop to hold,
+//! `study ensemble` what many rows of drawn parameters give, `study show` how a problem moves. All
+//! but the first are a program of their own, which is built where it is asked for.
 
 #![forbid(unsafe_code)]
 

@@ -36,8 +36,8 @@ use crate::run::past::{Numbers, Past, PastSegment, Plan, Progress};
 /// holds for all methods, and for the same program on the same kind of processor.
 ///
 /// It keeps the state, the parameters and inputs, what the method remembers, what was counted and
-/// reported, and what events, controllers and interactions need. It does not keep what your closures
-/// remember: keep that beside it.
+/// reported, and what events, controllers and interactions need. It does not keep what your
+/// closures remember: keep that beside it.
 ///
 /// With the feature `serde` it goes to a file. The file names the mechanism, its structure, the
 /// number type and the version of this crate, and is refused where one of them differs. The monitor

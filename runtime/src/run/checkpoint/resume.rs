@@ -26,8 +26,8 @@ where
     ///
     /// Build the simulation as that of the run: the same mechanism with the values of its start,
     /// the same formulation, method, coordinates, corrections, breaks, forces, interactions, events
-    /// and controllers. The initial state is of no account. [`HybridSimulation::resume`] goes on with
-    /// interactions, events, controllers and further checkpoints.
+    /// and controllers. The initial state is of no account. [`HybridSimulation::resume`] goes on
+    /// with interactions, events, controllers and further checkpoints.
     ///
     /// ```
     /// use holonom::prelude::*;

@@ -214,8 +214,8 @@ where
     ///
     /// # Errors of the run
     /// [`Fault::Setting`] of zero steps. [`Fault::Checkpoint`] with a method of your own that does
-    /// not hand over what it remembers. The fault that the closure returns. [`Fault::NotVerified`] of
-    /// a run that is to be [`Simulation::verified`].
+    /// not hand over what it remembers. The fault that the closure returns. [`Fault::NotVerified`]
+    /// of a run that is to be [`Simulation::verified`].
     #[cfg(feature = "std")]
     #[must_use]
     pub fn checkpoints<K, R>(

@@ -5,8 +5,9 @@
 //! `search.rs` looks into a step, on the dense output of the method. `handling.rs` calls handlers
 //! and controllers between two segments. `hybrid.rs` is what a user writes, `single_step.rs` the
 //! same for a `Stepper`. `modes.rs` finds the modes of interactions anew at every such instant,
-//! `looked.rs` where they end, and `stepper_modes.rs` both for a `Stepper`. `sides.rs` turns laws that
-//! switch, `switching.rs` remembers their sides, and `instants.rs` knows those of the time ahead.
+//! `looked.rs` where they end, and `stepper_modes.rs` both for a `Stepper`. `sides.rs` turns laws
+//! that switch, `switching.rs` remembers their sides, and `instants.rs` knows those of the time
+//! ahead.
 //!
 //! A sign, not a value, says that a reading has passed: it is right whatever a correction after the
 //! step does to the last digits. Where a run starts at a zero, or a handler leaves a reading there,
