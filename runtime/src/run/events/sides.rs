@@ -8,7 +8,7 @@ use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{OneStep as _, Rk4, System as _};
-use crate::math::scalar::Real;
+use crate::math::scalar::{Real, Scalar};
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
@@ -131,7 +131,7 @@ where
                     return Err(undecided(switch, now));
                 }
                 // A jump by another one; the zeros of its own are found as such.
-                let is_beyond = before.to_f64() * reading < -f64::EPSILON.sqrt();
+                let is_beyond = before.to_f64() * reading < -Scalar::sqrt(f64::EPSILON);
                 // One that comes to rest at zero has no sign any more.
                 if reading == 0.0 || before == S::zero() || is_beyond {
                     let side = instants.side_behind(switch, now, end);
