@@ -207,7 +207,7 @@ pub enum Fault {
         /// The time (s).
         time: f64,
     },
-    /// The load of a joint with friction by it is not determined: equations of the joint depend on
+    /// The load of a joint with friction by it is not determined. Equations of the joint depend on
     /// others, or what is held shares its efforts in a way that nothing decides.
     LoadNotUnique {
         /// The field of the joint.

@@ -358,7 +358,7 @@ pub(super) fn finite<S: Real, const N: usize>(numbers: [S; N]) -> Result<SVector
 pub(super) fn finite_matrix<S: Real, const R: usize, const C: usize>(
     matrix: SMatrix<S, R, C>,
 ) -> Result<SMatrix<S, R, C>, Fault> {
-    // All of them, as no branch tells them apart: numbers side by side are looked at together.
+    // Without an early end, so that the compiler looks at several at once.
     let numbers = matrix.as_slice().iter();
     if numbers.fold(true, |finite, number| finite & number.is_finite()) {
         Ok(matrix)

@@ -42,8 +42,8 @@ pub fn discrete_lqr<const X: usize, const U: usize>(
 ) -> Option<SMatrix<f64, U, X>> {
     let (q, r) = ((q + q.transpose()) * 0.5, (r + r.transpose()) * 0.5);
     let inverse = r.cholesky()?.inverse();
-    // Over some steps, twice as many each time: the transition, in the end with the loop closed;
-    // how far inputs of unit cost lead; and the cost of what is there at their start.
+    // Over some steps, twice as many each time: the transition, in the end with the loop closed.
+    // Then how far inputs of unit cost lead, and the cost of what is there at their start.
     let (mut transition, mut reach, mut cost) = (*a, b * inverse * b.transpose(), q);
     for _ in 0..DOUBLINGS {
         let inner = (SMatrix::identity() + reach * cost).try_inverse()?;

@@ -376,16 +376,18 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         self.quantity.name::<M>()
     }
 
+    fn refused(&self, setting: &'static str, value: S) -> Result<(), Fault> {
+        Err(Fault::InteractionSetting {
+            joint: self.name(),
+            setting,
+            value: value.to_f64(),
+        })
+    }
+
     /// Refuses settings of friction by load, and a joint whose load is not determined.
     fn check_bearing(&self, friction: &Friction<S>, bearing: &Bearing<S>) -> Result<(), Fault> {
         let joint = self.name();
-        let refuse = |setting: &'static str, value: S| {
-            Err(Fault::InteractionSetting {
-                joint,
-                setting,
-                value: value.to_f64(),
-            })
-        };
+        let refuse = |setting, value| self.refused(setting, value);
         let Quantity::Joint(reading) = self.quantity else {
             return Err(Fault::LoadNotUnique { joint });
         };
@@ -411,13 +413,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// Refuses settings that are not acceptable.
     pub(crate) fn check(&self) -> Result<(), Fault> {
         let joint = self.name();
-        let refuse = |setting: &'static str, value: S| {
-            Err(Fault::InteractionSetting {
-                joint,
-                setting,
-                value: value.to_f64(),
-            })
-        };
+        let refuse = |setting, value| self.refused(setting, value);
         if let Some(setting) = self.misplaced {
             return Err(Fault::MisplacedSetting { joint, setting });
         }

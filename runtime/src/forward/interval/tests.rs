@@ -3,17 +3,7 @@
 use super::Interval;
 use crate::forward::Forward;
 use crate::math::scalar::Scalar;
-
-/// Numbers between -1 and 1, the same at every run.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005);
-        self.0 = self.0.wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
+use crate::tests::numbers::Numbers;
 
 /// Functions that are made of everything.
 fn functions<S: Scalar>(x: S) -> [S; 8] {
@@ -33,7 +23,7 @@ fn functions<S: Scalar>(x: S) -> [S; 8] {
 
 #[test]
 fn enclosures_hold_what_they_enclose() {
-    let mut random = Random(7);
+    let mut random = Numbers(7);
     for _ in 0..4000 {
         let (middle, width) = (4.0 * random.next(), random.next().abs().powi(3));
         let (low, high) = (middle - width, middle + width);

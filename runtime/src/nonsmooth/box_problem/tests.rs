@@ -3,17 +3,7 @@
 use std::vec::Vec;
 
 use super::{BoxProblem, BoxSolution, Place};
-
-/// Numbers from -1 to 1 (a linear congruential generator).
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005);
-        self.0 = self.0.wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
+use crate::tests::numbers::Numbers;
 
 /// `B B^T` of a random matrix with so many columns.
 fn matrix<const K: usize>(numbers: &mut Numbers, rank: usize) -> [[f64; K]; K] {

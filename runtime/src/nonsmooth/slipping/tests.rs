@@ -3,26 +3,16 @@
 use super::{Refusal, Slipping};
 use crate::nonsmooth::bearing::Ends;
 use crate::nonsmooth::loads::{BearingLoads, add, size, zeros};
+use crate::tests::numbers::Numbers;
 
-/// Numbers from -1 to 1 (a linear congruential generator).
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005);
-        self.0 = self.0.wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn ends(&mut self, size: f64) -> Ends<f64> {
-        core::array::from_fn(|_| core::array::from_fn(|_| size * self.next()))
-    }
+fn ends(numbers: &mut Numbers, size: f64) -> Ends<f64> {
+    core::array::from_fn(|_| core::array::from_fn(|_| size * numbers.next()))
 }
 
 fn loads<const K: usize>(numbers: &mut Numbers, growth: f64) -> BearingLoads<f64, K> {
     BearingLoads {
-        offset: core::array::from_fn(|_| numbers.ends(1.0)),
-        by_effort: core::array::from_fn(|_| core::array::from_fn(|_| numbers.ends(growth))),
+        offset: core::array::from_fn(|_| ends(numbers, 1.0)),
+        by_effort: core::array::from_fn(|_| core::array::from_fn(|_| ends(numbers, growth))),
     }
 }
 

@@ -61,10 +61,10 @@ where
         let is_due = instant.is_some_and(|instant| time >= instant || is_same(time, instant));
         let (now, end) = (time.to_f64(), hybrid.end.to_f64());
         if is_due {
+            let instants = Instants::<M>::new(self.dynamics.parameters());
             for switch in M::SWITCHES {
                 if of::<S, M>(&switching.due, switch) != S::zero() {
                     let mut watch = switching.watch(switch);
-                    let instants = Instants::<M>::new(self.dynamics.parameters());
                     let side = watch.side().to_f64();
                     let side = instants.side_after(switch, side, now, end);
                     watch.begin_at(S::constant(side));
@@ -120,11 +120,14 @@ where
             return Ok(false);
         };
         let mut is_changed = false;
+        // Until a side is changed, which others may hold.
+        let (mut known_instants, mut known_readings) = (None, None);
         for switch in M::SWITCHES {
             let mut watch = switching.watch(switch);
             let before = watch.side();
             if switch.is_of_time {
-                let instants = Instants::<M>::new(self.dynamics.parameters());
+                let instants = known_instants
+                    .get_or_insert_with(|| Instants::<M>::new(self.dynamics.parameters()));
                 let now = time.to_f64();
                 let reading = instants.at(switch, now);
                 if reading.is_nan() {
@@ -138,7 +141,9 @@ where
                     watch.begin_at(S::constant(side));
                 }
             } else {
-                let reading = of::<S, M>(&self.dynamics.switches(time, state), switch);
+                let readings =
+                    known_readings.get_or_insert_with(|| self.dynamics.switches(time, state));
+                let reading = of::<S, M>(readings, switch);
                 if reading.to_f64().is_nan() {
                     return Err(undecided(switch, time.to_f64()));
                 }
@@ -155,6 +160,7 @@ where
             if watch.side() != before {
                 is_changed = true;
                 self.dynamics.hold(switch, watch.side());
+                (known_instants, known_readings) = (None, None);
             }
             switching.keep(switch, &watch);
         }
