@@ -79,6 +79,9 @@ fn modes_of_a_loop() {
     ];
     println!("off by {double:e} in f64, {single:e} in f32");
     assert!(double < 1e-9 && single < 1e-4);
+    let switching = modes::sprung::<f64>().expect("regular");
+    println!("off by {switching:e} where a law switches");
+    assert!(switching.abs() < 1e-6);
 }
 
 /// The page of the guide shows the files of `tests/firmware/balancer`, which `tests/firmware/run`

@@ -1,6 +1,6 @@
 //! What happens in time, in the loop of a controller: stops, dry friction, a clutch, the end of a
-//! step where a reading passes zero, a current as a state, a law from a table. Each is compared
-//! with its closed form.
+//! step where a reading passes zero, a current as a state, a law from a table, one that switches.
+//! Each is compared with its closed form.
 
 use holonom::forces::Actuator;
 use holonom::joints::PointOnLine;
@@ -86,7 +86,21 @@ pub struct Pushed {
     push: Actuator,
 }
 
-/// The largest difference of all of them to their closed forms, over the size of each.
+/// A particle at 1 m/s with a spring of 1 N/m on one side alone.
+#[derive(Mechanism)]
+pub struct Springing {
+    #[body(mass = 1.0, velocity = [1.0, 0.0, 0.0])]
+    bob: Particle,
+    #[joint(between = [ground, bob], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    line: PointOnLine,
+    #[force(
+        between = [ground, bob], head = [-10.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0],
+        force = -max(0.0, length - 10.0)
+    )]
+    spring: Actuator,
+}
+
+/// The largest difference of all but the last to their closed forms, over the size of each.
 ///
 /// # Errors
 /// What a step or a reading refuses.
@@ -207,4 +221,21 @@ fn pushed<S: Real>() -> Result<S, Fault> {
     let bodies = stepper.bodies(&state);
     let place = stepper.view(&bodies).position(h.bob).x;
     Ok(place - S::constant(1.0 / 3.0))
+}
+
+/// Swings half a turn on the spring, and then goes back at 1 m/s. A stepper does not look where the
+/// law switches: the slope of the force jumps within a step.
+///
+/// # Errors
+/// What a step refuses.
+pub fn sprung<S: Real>() -> Result<S, Fault> {
+    let (springing, h) = (Springing::default(), Springing::HANDLES);
+    let mut stepper = Stepper::<S, _, _, _>::new(&springing, StandardLagrange, Rk4)?;
+    let mut state = stepper.initial_state()?;
+    for _ in 0..4000 {
+        stepper.step(&mut state, S::constant(PERIOD))?;
+    }
+    let bodies = stepper.bodies(&state);
+    let place = stepper.view(&bodies).position(h.bob).x;
+    Ok(place + S::constant(4.0 - core::f64::consts::PI))
 }
