@@ -157,7 +157,8 @@ pub mod joints;
 /// global ones); the joint may then be violated at the start, which [`MechanismExt::assemble`]
 /// mends. `cut` keeps it equations in joint coordinates, see [`guide::coordinates`].
 /// `limits = [-1.0, 1.0]` and `restitution = 0.2` are stops of a hinge (rad), a slide (m) or a
-/// screw (rad). Runs heed them by `.limits()`, see [`guide::contact`](mod@guide::contact).
+/// screw (rad). Runs and steppers heed them unless `.without_limits()` is said, see
+/// [`guide::contact`](mod@guide::contact).
 ///
 /// `#[force(between = [i, j], ..)]` on a field whose type is a force, likewise, see [`forces`] and
 /// [`force!`].

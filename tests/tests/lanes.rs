@@ -9,6 +9,7 @@ use holonom::lanes::{Ensemble, LaneEquations, Lanes};
 use holonom::measure::NoForces;
 use holonom::mechanism::{Absolute, Coordinates, Relative, Terms};
 use holonom::prelude::*;
+use holonom::run::Steps;
 use holonom::{
     Heun, Kutta3, Midpoint, Real, Scalar, SemiImplicitEuler, SimulationError,
     dynamics::Dynamics,
@@ -102,7 +103,8 @@ where
     F: Formulation<T>,
     F::Terms: Terms,
     C: Coordinates<M>,
-    K: OneStep<T, Dynamics<T, M, F, NoForces, C>>
+    K: Steps<T, M, F, C>
+        + OneStep<T, Dynamics<T, M, F, NoForces, C>>
         + OneStep<Lanes<T, L>, LaneEquations<T, M, C, F::Terms, L>>,
 {
     let dt = T::constant(dt);

@@ -93,7 +93,7 @@ pub(crate) struct Joint {
     pub(crate) mimic: Option<Mimic>,
 }
 
-/// What the file says of the range of a joint. A run that is told to heeds positions; nothing in
+/// What the file says of the range of a joint. Runs heed positions; nothing in
 /// the mechanism holds rates and efforts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {

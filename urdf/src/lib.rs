@@ -58,7 +58,7 @@
 //! | `mimic` | a `Gear`, or a joint that is defined beside the struct |
 //! | every joint of one coordinate | an `#[input]`: a torque (N m) or force (N) on the child; none where it mimics, or with [`Options::passive`] |
 //! | `damping` | a term of the motor's law |
-//! | `limit` | `limits = [..]` of the joint, which a run with `.limits()` heeds; constants `POSITION_LIMITS`, `RATE_LIMITS`, `EFFORT_LIMITS`; nothing enforces rates and efforts |
+//! | `limit` | `limits = [..]` of the joint, which runs heed unless `.without_limits()` is said; constants `POSITION_LIMITS`, `RATE_LIMITS`, `EFFORT_LIMITS`; nothing enforces rates and efforts |
 //! | `friction` | a comment and the constant `FRICTION`; the equations do not have it |
 //! | frames of links | constants `.._ORIGIN` and `.._AXES`, for `View::point` |
 //! | `visual` with `box`, `cylinder` or `sphere` | a shape of the body, drawn in films: no mass follows from it; nothing on the ground |

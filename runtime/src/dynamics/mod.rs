@@ -233,6 +233,11 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
         }
     }
 
+    /// The forces beyond the description.
+    pub(crate) fn applied_forces(&self) -> &A {
+        &self.forces
+    }
+
     /// The same in other coordinates.
     #[must_use]
     pub fn coordinates<C2: Coordinates<M>>(self) -> Dynamics<S, M, F, A, C2> {

@@ -2,8 +2,27 @@
 
 use core::fmt;
 
-use crate::error::Fault;
 use crate::error::readable::Given;
+use crate::error::{Fault, Unheeding};
+
+/// The rule that a setting breaks.
+fn rule(setting: &str) -> &'static str {
+    match setting {
+        "lower limit" => "it comes first and is less than the upper one",
+        "restitution" => "it is from 0 to 1",
+        "rate of rest" => "it is finite, and zero or more",
+        "capacity" => "it is zero or more",
+        "stiction" => "it is not below the capacity of sliding",
+        "stribeck" => {
+            "it is the rate by which friction falls from `.stiction(..)`, positive and finite, and says nothing without that"
+        }
+        "normal" => "a normal has a length",
+        "coefficient" => "a coefficient of friction by load is finite",
+        "radius" => "a hinge with friction by load has a positive radius, by `.radius(..)`",
+        "guide" => "it is a length, positive and finite",
+        _ => "it is finite",
+    }
+}
 
 /// Says it; nothing of another fault.
 pub(super) fn say(fault: &Fault, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -14,9 +33,9 @@ pub(super) fn say(fault: &Fault, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             value,
         } => write!(
             f,
-            "the {setting} of the interaction on `{joint}` is {}: limits are in order; a restitution is from 0 to 1, a capacity is zero or more, a stiction is not below the capacity, and rates are \
-             finite; a normal has a length; a coefficient of friction by load is finite, and a hinge with it has a positive radius",
-            Given(value)
+            "the {setting} of the interaction on `{joint}` is {}: {}",
+            Given(value),
+            rule(setting)
         ),
         Fault::MisplacedSetting { joint, setting } => write!(
             f,
@@ -36,10 +55,32 @@ pub(super) fn say(fault: &Fault, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             limit,
         } => write!(
             f,
-            "`{joint}` is at {}, beyond its limit of {}: start between the limits, and let no handler leave them",
+            "`{joint}` is at {}, beyond its limit of {}: start between the limits, and let no handler leave them; `.without_limits()` passes those of the description",
             Given(value),
             Given(limit)
         ),
+        Fault::DrivenAgainst {
+            joint,
+            driver,
+            limit,
+            time,
+        } => write!(
+            f,
+            "at {} s driver `{driver}` moves `{joint}` on against its limit of {}: no stop holds what is prescribed; end that motion before, drive by a force, or say `.without_limits()`",
+            Given(time),
+            Given(limit)
+        ),
+        Fault::LimitsLeftOut { joint, by } => {
+            let who = match by {
+                Unheeding::DenseStep => "`step_dense` and `step_until` do",
+                Unheeding::Ensemble => "an ensemble does",
+                Unheeding::Derivatives => "runs that carry derivatives do",
+            };
+            write!(
+                f,
+                "`{joint}` has limits or another interaction, which {who} not heed: say `.without_limits()` where the motion stays between the limits"
+            )
+        }
         Fault::NoMode { joint, time } => write!(
             f,
             "at {} s no choice of modes satisfies all interactions, that on `{joint}` among them: an engaged dog may hold what is driven, \
@@ -68,7 +109,7 @@ pub(super) fn say(fault: &Fault, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             Given(time)
         ),
         Fault::NoInteractions => f.write_str(
-            "`GeneralizedAlpha` does not move a mechanism with interactions; every other method does, `RadauIIA` where the system is stiff",
+            "`GeneralizedAlpha` does not move a mechanism with limits or other interactions; every other method does, `RadauIIA` where the system is stiff, and `.without_limits()` leaves out the limits of the description",
         ),
         _ => Ok(()),
     }

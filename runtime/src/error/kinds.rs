@@ -192,6 +192,25 @@ pub enum Fault {
         /// The limit (rad, m).
         limit: f64,
     },
+    /// A driver moves a joint against its limit.
+    DrivenAgainst {
+        /// The field of the joint or the point with the limit.
+        joint: &'static str,
+        /// The field of the driver that moves now.
+        driver: &'static str,
+        /// The limit (rad, m).
+        limit: f64,
+        /// The time (s).
+        time: f64,
+    },
+    /// Limits and other interactions were to be left out, without
+    /// [`without_limits`](crate::Simulation::without_limits).
+    LimitsLeftOut {
+        /// The field of the first joint or point with one.
+        joint: &'static str,
+        /// What does not heed them.
+        by: Unheeding,
+    },
     /// No modes of interactions fit together at an instant.
     NoMode {
         /// The field of the joint or the point of one of them.
@@ -281,6 +300,11 @@ pub enum Fault {
         /// [`crate::mechanism::Pivot`].
         joint: Option<&'static str>,
     },
+    /// An instant of [`Simulation::breaks`](crate::Simulation::breaks) is not finite.
+    BreakNotFinite {
+        /// The instant (s).
+        instant: f64,
+    },
     /// A run was to begin where a joint is open, or where its bodies move against it.
     InconsistentStart {
         /// The joint's field.
@@ -292,6 +316,17 @@ pub enum Fault {
         /// Whether it is refused whatever was asked for, because joint coordinates describe no such
         /// state.
         is_final: bool,
+    },
+    /// A handler has set a state in which a joint is open, or its bodies move against it.
+    HandlerOpens {
+        /// The name of the event.
+        event: &'static str,
+        /// The joint's field.
+        joint: &'static str,
+        /// What is violated.
+        quantity: Quantity,
+        /// By how much, in the unit of the quantity.
+        violation: f64,
     },
     /// The derivatives of a start violate those of the constraints: along a direction a parameter
     /// moves a joint, and the bodies do not go with it.
@@ -544,6 +579,19 @@ pub enum LeavesOut {
     Kinematics,
     /// A linearisation, an equilibrium, a trim or a continuation in chosen coordinates.
     Linearisation,
+}
+
+/// What does not heed limits and other interactions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Unheeding {
+    /// A step that is looked into, by [`Stepper::step_dense`](crate::Stepper::step_dense) or
+    /// [`Stepper::step_until`](crate::Stepper::step_until).
+    DenseStep,
+    /// An [`Ensemble`](crate::lanes::Ensemble).
+    Ensemble,
+    /// Runs that carry derivatives, and gradients.
+    Derivatives,
 }
 
 /// What a joint's equations are about.

@@ -228,6 +228,8 @@ impl fmt::Display for Fault {
             | Self::MisplacedSetting { .. }
             | Self::NoSuchInteraction { .. }
             | Self::BeyondLimit { .. }
+            | Self::DrivenAgainst { .. }
+            | Self::LimitsLeftOut { .. }
             | Self::NoMode { .. }
             | Self::NoUniqueFriction { .. }
             | Self::LoadNotUnique { .. }
@@ -235,7 +237,7 @@ impl fmt::Display for Fault {
             | Self::NoInteractions => interactions::say(self, f),
             Self::NotVerified => write!(
                 f,
-                "a run with events, controllers, checkpoints or laws that switch has no companion that `verified()` could compare it with; compare with a second run of \
+                "a run with events, controllers, checkpoints, laws that switch, limits or other interactions has no companion that `verified()` could compare it with; compare with a second run of \
                  another tolerance or step"
             ),
             Self::SlidingLaw { .. } | Self::SwitchUndecided { .. } | Self::SwitchLeftOut { .. } => {
@@ -313,30 +315,29 @@ impl fmt::Display for Fault {
                 violation,
                 is_final,
             } => {
-                let (violation, unit) = (Measured(violation), quantity.unit());
-                match quantity {
-                    Quantity::Length | Quantity::Angle => {
-                        write!(
-                            f,
-                            "joint `{joint}` is open by {violation} {unit} at the start"
-                        )?;
-                    }
-                    Quantity::Speed | Quantity::AngularVelocity => write!(
-                        f,
-                        "the bodies of joint `{joint}` move against it at {violation} {unit} at the start"
-                    )?,
-                }
-                if is_final {
-                    write!(
-                        f,
-                        ", and joint coordinates describe no such state: `.assembled()` or `assemble` corrects it"
-                    )
+                opens(f, (joint, quantity, violation))?;
+                f.write_str(if is_final {
+                    " at the start, and joint coordinates describe no such state: `.assembled()` or `assemble` corrects it"
                 } else {
-                    write!(
-                        f,
-                        ": `.assembled()` corrects the start, `.inconsistent_start()` accepts it"
-                    )
-                }
+                    " at the start: `.assembled()` corrects the start, `.inconsistent_start()` accepts it"
+                })
+            }
+            Self::HandlerOpens {
+                event,
+                joint,
+                quantity,
+                violation,
+            } => {
+                write!(f, "after the handler of `{event}` ")?;
+                opens(f, (joint, quantity, violation))?;
+                f.write_str(match quantity {
+                    Quantity::Length | Quantity::Angle => {
+                        ": set all joints of a loop, or put the state onto the constraints by `assemble`"
+                    }
+                    Quantity::Speed | Quantity::AngularVelocity => {
+                        ": `event.impact` gives a blow that the whole loop takes; what sets a rate sets that of one joint"
+                    }
+                })
             }
             Self::StepTooShort { step, time } => write!(
                 f,
@@ -397,6 +398,13 @@ impl fmt::Display for Fault {
                     f,
                     "`{name}` must be finite and positive, not {}",
                     Given(value)
+                )
+            }
+            Self::BreakNotFinite { instant } => {
+                write!(
+                    f,
+                    "an instant of `breaks` is {}: it must be finite",
+                    Given(instant)
                 )
             }
             Self::Interval { start, end } => {
@@ -526,6 +534,23 @@ impl fmt::Display for Fault {
             }
             Self::Parameter(error) => error.fmt(f),
         }
+    }
+}
+
+/// A joint that is open, or whose bodies move against it.
+fn opens(
+    f: &mut fmt::Formatter<'_>,
+    (joint, quantity, violation): (&str, Quantity, f64),
+) -> fmt::Result {
+    let (violation, unit) = (Measured(violation), quantity.unit());
+    match quantity {
+        Quantity::Length | Quantity::Angle => {
+            write!(f, "joint `{joint}` is open by {violation} {unit}")
+        }
+        Quantity::Speed | Quantity::AngularVelocity => write!(
+            f,
+            "the bodies of joint `{joint}` move against it at {violation} {unit}"
+        ),
     }
 }
 

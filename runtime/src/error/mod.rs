@@ -16,5 +16,5 @@ mod switches;
 pub use checkpoint::CheckpointFault;
 pub use kinds::{
     AngleSet, Fault, LeavesOut, NotFinite, ParameterError, ParameterFault, Quantity, RunError,
-    SimulationError,
+    SimulationError, Unheeding,
 };

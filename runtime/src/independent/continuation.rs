@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use super::folds::Passed;
 use super::stability::negative;
-use super::varied::Varied;
+use super::varied::{Adjusted, Varied};
 use super::walk::{Spot, Walk};
 use super::{IndependentCoordinates, Linearised};
 use crate::error::{Fault, setting};
@@ -191,6 +191,18 @@ where
                 S::one()
             },
         };
+        if let Adjusted::Rate(number) = along {
+            // Of a coordinate on whose position something depends no rate is steady.
+            let mut rates = set.1;
+            let moves = if end == S::zero() { begin } else { end };
+            rates
+                .iter_mut()
+                .skip(number)
+                .take(1)
+                .for_each(|rate| *rate = moves);
+            let linear = self.linearise(start, [], |_| [])?;
+            self.steady(start, &linear.by_positions, &rates)?;
+        }
         let mut here = walk.start(&set, start)?;
         let slopes = &here.linear.by_positions;
         here.set.0.steady(&here.state, slopes, &here.set.1)?;

@@ -56,7 +56,9 @@ where
     ///
     /// # Errors
     /// [`Fault::NotSteady`] for a rate of a coordinate on which something depends;
-    /// [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2); what
+    /// [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2);
+    /// [`Fault::BeyondLimit`] of one that lies beyond a limit of the description, unless the space is
+    /// [`without_limits`](IndependentCoordinates::without_limits), for a stop is no force here; what
     /// [`IndependentCoordinates::linearise`] refuses.
     pub fn equilibrium(&self, guess: &M::JointState<S>) -> Result<M::JointState<S>, Fault> {
         let rates = self.rates(guess);
@@ -80,7 +82,8 @@ where
                 if let Ok(next) = self.displaced(&state, &way, &rates) {
                     state = next;
                 }
-                return self.steady(&state, &slopes, &rates);
+                let found = self.steady(&state, &slopes, &rates)?;
+                return self.within_limits(found);
             }
             let rows = row_sizes(&slopes, &scales);
             let before = square(&left, &rows);

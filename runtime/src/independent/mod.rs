@@ -75,6 +75,7 @@ use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::described::check_limits;
 
 /// The equations of motion of a mechanism in chosen coordinates, by
 /// [`IndependentExt::coordinates`].
@@ -94,6 +95,8 @@ pub struct IndependentCoordinates<M: JointRates, const N: usize, S: Scalar = f64
     /// In absolute coordinates.
     constants: M::Constants<S>,
     equations: Equations<M, N, S>,
+    /// Whether the limits of the description are left out.
+    pub(crate) passes_limits: bool,
 }
 
 /// What the kernels take beside a state, in any scalar.
@@ -178,6 +181,7 @@ pub trait IndependentExt: JointRates {
                 time: S::zero(),
             },
             parameters,
+            passes_limits: false,
         })
     }
 }
@@ -194,6 +198,37 @@ impl<M: JointRates, const N: usize, S: Scalar> IndependentCoordinates<M, N, S> {
     /// Takes drivers and laws at another time (s).
     pub const fn set_time(&mut self, time: S) {
         self.equations.time = time;
+    }
+
+    /// Passes the limits of the description, `#[joint(.., limits = [-1.0, 1.0])]`: in equilibria,
+    /// trims, sensitivities and gradients of this space.
+    #[must_use]
+    pub const fn without_limits(mut self) -> Self {
+        self.passes_limits = true;
+        self
+    }
+
+    /// Whether all joints are between the limits of the description.
+    ///
+    /// # Errors
+    /// [`Fault::BeyondLimit`] with the first one that is not, where it is, and its limit.
+    pub fn check_limits(&self, state: &M::JointState<S>) -> Result<(), Fault>
+    where
+        S: Real,
+    {
+        let bodies = self.bodies(state);
+        check_limits::<S, M>(&self.parameters, &self.constants, (self.time(), &bodies))
+    }
+
+    /// A state that was found, unless it is beyond limits that count.
+    fn within_limits(&self, state: M::JointState<S>) -> Result<M::JointState<S>, Fault>
+    where
+        S: Real,
+    {
+        if !self.passes_limits {
+            self.check_limits(&state)?;
+        }
+        Ok(state)
     }
 
     /// The joint, or the free body, of a chosen coordinate.

@@ -51,7 +51,8 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ///
     /// Loops are closed on the branch of the described state, as by
     /// [`MechanismExt::assemble`](crate::MechanismExt::assemble). That is done in strides of one
-    /// radian, so that what is geared to a coordinate turns as often as it has to.
+    /// radian, so that what is geared to a coordinate turns as often as it has to. Limits of the
+    /// description do not count; [`IndependentCoordinates::check_limits`] asks for them.
     ///
     /// # Errors
     /// [`Fault::StateNotFinite`]; [`Fault::NoPosition`] for a chosen component of an angular

@@ -129,6 +129,7 @@ where
                 }
                 let ((space, rates), (state, _)) = trial(S::one()).unwrap_or((set, here));
                 let state = space.steady(&state, &linear.by_positions, &rates)?;
+                let state = space.within_limits(state)?;
                 return Ok((state, adjusted.map(|of| space.present(of, &rates))));
             }
             let before = square(&efforts, &sizes);

@@ -77,6 +77,7 @@ pub struct Ensemble<T: Real, M: Mechanism, F: Formulation<T>, K, C: Coordinates<
     pub(super) going: usize,
     pub(super) scheme: K,
     pub(super) clock: Clock<T>,
+    pub(super) passes_limits: bool,
 }
 
 impl<T, M, F, K, const L: usize> Ensemble<T, M, F, K, M::Coordinates, L>
@@ -131,6 +132,7 @@ where
             going: L,
             scheme,
             clock,
+            passes_limits: false,
         };
         ensemble.begin(Dynamics::initial_state);
         ensemble
@@ -185,12 +187,23 @@ where
         self
     }
 
+    /// Passes the limits of the description. An ensemble does not heed them, and refuses its steps
+    /// otherwise.
+    #[must_use]
+    pub fn without_limits(mut self) -> Self {
+        self.passes_limits = true;
+        self
+    }
+
     /// Solves the equations of motion in other coordinates, from the described states:
     /// `.coordinates::<Relative>()`.
     #[must_use]
     pub fn coordinates<C2: Coordinates<M>>(self) -> Ensemble<T, M, F, K, C2, L> {
         let dynamics = self.dynamics.map(Dynamics::coordinates);
-        Ensemble::described(dynamics, self.scheme, self.clock)
+        Ensemble {
+            passes_limits: self.passes_limits,
+            ..Ensemble::described(dynamics, self.scheme, self.clock)
+        }
     }
 
     /// Solves the equations of motion in relative (joint) coordinates, from the described states.
@@ -303,6 +316,7 @@ impl<T: Real, M: Mechanism, F: Formulation<T>, K: Copy, C: Coordinates<M>, const
             going: self.going,
             scheme: self.scheme,
             clock: self.clock,
+            passes_limits: self.passes_limits,
         }
     }
 }

@@ -5,13 +5,14 @@ use super::equations::LaneEquations;
 use super::exchange::{put_state, state_of};
 use super::number::Lanes;
 use crate::dynamics::Dynamics;
-use crate::error::{Fault, SimulationError};
+use crate::error::{Fault, SimulationError, Unheeding};
 use crate::formulation::Formulation;
 use crate::integrate::{OneStep, Slopes, StepStart, System};
 use crate::math::scalar::Real;
 use crate::measure::load::NoForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::described::refuse_limits;
 use crate::run::stepper::end_of_step;
 
 impl<T, M, F, K, C, const L: usize> Ensemble<T, M, F, K, C, L>
@@ -28,9 +29,13 @@ where
     ///
     /// # Errors
     /// A step that is not positive and finite, or below the resolution of the time where laws
-    /// depend on it. Nothing is moved then. What a lane cannot do stops that lane
+    /// depend on it; [`Fault::LimitsLeftOut`] of a description with limits, unless
+    /// [`Ensemble::without_limits`] is said. Nothing is moved then. What a lane cannot do stops that lane
     /// ([`Ensemble::stopped`]) and is no error here.
     pub fn step(&mut self, dt: T) -> Result<(), Fault> {
+        if !self.passes_limits {
+            refuse_limits::<M>(Unheeding::Ensemble)?;
+        }
         let clock = end_of_step::<T, M>(&self.clock, dt)?;
         if self.going == 0 {
             return Ok(());

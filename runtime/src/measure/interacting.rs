@@ -1,72 +1,255 @@
-//! Forces with interactions.
+//! Forces with interactions: those that a run is given, and the limits of the description.
+
+use core::fmt::{self, Debug};
 
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::math::scalar::Real;
+use crate::math::scalar::{Real, Scalar};
 use crate::measure::load::{AppliedForces, Loads};
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::limits::{Nothing, Several, Visit};
 use crate::nonsmooth::columns::Setting;
+use crate::nonsmooth::described::renewed;
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::{Task, perform};
 
-/// Further forces `A`, and `K` interactions
+/// Further forces `A`, and `K` interactions with the limits of the description among them
 /// ([`Simulation::interactions`](crate::Simulation::interactions)).
-#[derive(Clone, Debug)]
-pub struct Interacting<S: Real, M: Mechanism, A, const K: usize> {
+pub struct Interacting<S, M, A, const K: usize> {
     forces: A,
-    list: [Tracked<S, M>; K],
+    list: [Interaction<S, M>; K],
+}
+
+impl<S: Copy, M, A: Clone, const K: usize> Clone for Interacting<S, M, A, K> {
+    fn clone(&self) -> Self {
+        Self {
+            forces: self.forces.clone(),
+            list: self.list,
+        }
+    }
+}
+
+/// The interactions.
+impl<S: Debug, M, A, const K: usize> Debug for Interacting<S, M, A, K> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(&self.list).finish()
+    }
 }
 
 impl<S: Real, M: Mechanism, A, const K: usize> Interacting<S, M, A, K> {
-    pub(crate) fn new(forces: A, interactions: [Interaction<S, M>; K]) -> Self {
-        Self {
-            forces,
-            list: interactions.map(Tracked::new),
+    pub(crate) fn new(forces: A, list: [Interaction<S, M>; K]) -> Self {
+        Self { forces, list }
+    }
+}
+
+impl<S: Real, M: Mechanism, A: AppliedForces<S, M>, const K: usize> AppliedForces<S, M>
+    for Interacting<S, M, A, K>
+{
+    const PRESENT: bool = A::PRESENT;
+    const INTERACTS: bool = K > 0;
+    const HEEDS: bool = A::HEEDS;
+
+    type Tracked = [Tracked<S, M>; K];
+    type Own = [Tracked<S, M>; K];
+    type With<B: AppliedForces<S, M>> = Interacting<S, M, A::With<B>, K>;
+
+    #[inline(always)]
+    fn apply(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>) {
+        self.forces.apply(time, state, loads);
+    }
+
+    fn tracked(&self, parameters: &M::Parameters<S>) -> Self::Tracked {
+        renewed(&self.list, parameters, A::HEEDS)
+    }
+
+    fn own(&self, parameters: &M::Parameters<S>) -> Self::Own {
+        renewed(&self.list, parameters, false)
+    }
+
+    fn with<B: AppliedForces<S, M>>(self, forces: B) -> Self::With<B> {
+        Interacting {
+            forces: self.forces.with(forces),
+            list: self.list,
         }
     }
 }
 
-impl<S, M, A, const K: usize> AppliedForces<S, M> for Interacting<S, M, A, K>
-where
-    S: Real,
-    M: Mechanism,
-    A: AppliedForces<S, M>,
-{
-    const PRESENT: bool = A::PRESENT || K > 0;
-    const INTERACTS: bool = K > 0;
+/// Forces without the limits of the description
+/// ([`Simulation::without_limits`](crate::Simulation::without_limits)).
+#[derive(Clone, Copy, Debug)]
+pub struct Unlimited<A>(pub(crate) A);
 
+impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Unlimited<A> {
+    const PRESENT: bool = A::PRESENT;
+    const INTERACTS: bool = A::INTERACTS;
+    const HEEDS: bool = false;
+
+    type Tracked = A::Own;
+    type Own = A::Own;
+    type With<B: AppliedForces<S, M>> = Unlimited<A::With<B>>;
+
+    #[inline(always)]
     fn apply(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>) {
-        self.forces.apply(time, state, loads);
-        let view = loads.view();
-        let scene = Scene::<S, M> {
-            constants: view.constants(),
-            time,
-            bodies: state,
-        };
-        for tracked in &self.list {
-            if let Some(effort) = tracked.sliding_effort(&scene) {
-                let quantity = &tracked.interaction.quantity;
-                quantity.add_effort(&scene, effort, loads.forces);
-            }
+        self.0.apply(time, state, loads);
+    }
+
+    fn tracked(&self, parameters: &M::Parameters<S>) -> A::Own
+    where
+        S: Real,
+    {
+        self.0.own(parameters)
+    }
+
+    fn own(&self, parameters: &M::Parameters<S>) -> A::Own
+    where
+        S: Real,
+    {
+        self.0.own(parameters)
+    }
+
+    fn with<B: AppliedForces<S, M>>(self, forces: B) -> Self::With<B> {
+        Unlimited(self.0.with(forces))
+    }
+}
+
+/// Forces in a run or a stepper under way, with the statuses of all interactions.
+pub struct Heeding<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> {
+    forces: A,
+    list: A::Tracked,
+}
+
+impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M> + Clone> Clone for Heeding<S, M, A> {
+    fn clone(&self) -> Self {
+        Self {
+            forces: self.forces.clone(),
+            list: self.list.clone(),
+        }
+    }
+}
+
+/// How many interactions there are.
+impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> Debug for Heeding<S, M, A> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Heeding")
+            .field("interactions", &A::Tracked::COUNT)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> Heeding<S, M, A> {
+    /// At the start, with the limits of the description by these parameters.
+    pub(crate) fn new(forces: A, parameters: &M::Parameters<S>) -> Self {
+        Self {
+            list: forces.tracked(parameters),
+            forces,
         }
     }
 
-    fn interactions(&self) -> &[Tracked<S, M>] {
+    /// The forces alone.
+    pub(crate) fn into_forces(self) -> A {
+        self.forces
+    }
+
+    /// All interactions, with their statuses now.
+    pub(crate) fn list(&self) -> &A::Tracked {
         &self.list
     }
+}
+
+/// What is asked of the interactions.
+struct Perform<'a, 't, S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>> {
+    setting: &'a Setting<'a, S, M, F, C>,
+    reactions: Option<Reactions<'a, S, M, F>>,
+    task: Task<'t, S, M, C>,
+}
+
+impl<S, M, F, C> Visit<Tracked<S, M>> for Perform<'_, '_, S, M, F, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    type Output = Result<(), Fault>;
 
     // One piece of code, apart from what a step without interactions is.
     #[inline(never)]
+    fn visit<const K: usize>(self, list: &[Tracked<S, M>; K]) -> Result<(), Fault> {
+        perform(self.setting, self.reactions, list, self.task)
+    }
+}
+
+impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Heeding<S, M, A> {
+    const PRESENT: bool = A::PRESENT || A::Tracked::COUNT > 0;
+    const INTERACTS: bool = A::Tracked::COUNT > 0;
+    const HEEDS: bool = A::HEEDS;
+
+    type Tracked = Nothing;
+    type Own = Nothing;
+    type With<B: AppliedForces<S, M>> = B;
+
+    #[inline(always)]
+    fn apply(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>) {
+        self.forces.apply(time, state, loads);
+        if A::Tracked::COUNT > 0 {
+            slide(self.list.as_ref(), time, state, loads);
+        }
+    }
+
+    fn tracked(&self, _parameters: &M::Parameters<S>) -> Nothing {
+        Nothing
+    }
+
+    fn own(&self, _parameters: &M::Parameters<S>) -> Nothing {
+        Nothing
+    }
+
+    fn with<B: AppliedForces<S, M>>(self, forces: B) -> B {
+        forces
+    }
+
+    #[inline(always)]
+    fn interactions(&self) -> &[Tracked<S, M>] {
+        self.list.as_ref()
+    }
+
+    #[inline(always)]
     fn interact<F: Formulation<S>, C: Coordinates<M>>(
         &self,
         setting: &Setting<'_, S, M, F, C>,
         reactions: Option<Reactions<'_, S, M, F>>,
         task: Task<'_, S, M, C>,
     ) -> Result<(), Fault> {
-        perform(setting, reactions, &self.list, task)
+        let perform = Perform {
+            setting,
+            reactions,
+            task,
+        };
+        self.list.visit(perform).unwrap_or(Ok(()))
+    }
+}
+
+/// Adds the efforts of friction that slides.
+fn slide<S: Real, M: Mechanism>(
+    list: &[Tracked<S, M>],
+    time: S,
+    state: &M::State<S>,
+    loads: &mut Loads<'_, S, M>,
+) {
+    let view = loads.view();
+    let scene = Scene {
+        constants: view.constants(),
+        time,
+        bodies: state,
+    };
+    for tracked in list {
+        if let Some(effort) = tracked.sliding_effort(&scene) {
+            let quantity = &tracked.interaction.quantity;
+            quantity.add_effort(&scene, effort, loads.forces);
+        }
     }
 }

@@ -10,7 +10,9 @@ use crate::measure::view::View;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::handle::{BodyHandle, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::limits::{Nothing, Several};
 use crate::nonsmooth::columns::Setting;
+use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::quantity::{JointQuantity, Quantity};
 use crate::nonsmooth::scene::Scene;
@@ -27,8 +29,42 @@ pub trait AppliedForces<S: Scalar, M: Mechanism> {
     #[doc(hidden)]
     const INTERACTS: bool = false;
 
+    /// Whether the limits of the description are heeded.
+    #[doc(hidden)]
+    const HEEDS: bool = true;
+
+    /// The interactions of a run with these forces.
+    #[doc(hidden)]
+    type Tracked: Several<Tracked<S, M>>;
+
+    /// Those without the limits of the description.
+    #[doc(hidden)]
+    type Own: Several<Tracked<S, M>>;
+
+    /// The same with other forces.
+    #[doc(hidden)]
+    type With<B: AppliedForces<S, M>>: AppliedForces<S, M>;
+
     /// Adds the forces at a time and a state.
     fn apply(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>);
+
+    /// The interactions of a run that begins, with these parameters.
+    #[doc(hidden)]
+    fn tracked(&self, parameters: &M::Parameters<S>) -> Self::Tracked
+    where
+        S: Real;
+
+    /// Those without the limits of the description.
+    #[doc(hidden)]
+    fn own(&self, parameters: &M::Parameters<S>) -> Self::Own
+    where
+        S: Real;
+
+    /// The same with other forces.
+    #[doc(hidden)]
+    fn with<B: AppliedForces<S, M>>(self, forces: B) -> Self::With<B>
+    where
+        Self: Sized;
 
     /// The interactions, with their statuses.
     #[doc(hidden)]
@@ -62,17 +98,62 @@ pub struct NoForces;
 impl<S: Scalar, M: Mechanism> AppliedForces<S, M> for NoForces {
     const PRESENT: bool = false;
 
+    type Tracked = M::PerLimit<Tracked<S, M>>;
+    type Own = Nothing;
+    type With<B: AppliedForces<S, M>> = B;
+
     #[inline(always)]
     fn apply(&self, _time: S, _state: &M::State<S>, _loads: &mut Loads<'_, S, M>) {}
+
+    fn tracked(&self, parameters: &M::Parameters<S>) -> Self::Tracked
+    where
+        S: Real,
+    {
+        described::<S, M>(parameters)
+    }
+
+    fn own(&self, _parameters: &M::Parameters<S>) -> Nothing
+    where
+        S: Real,
+    {
+        Nothing
+    }
+
+    fn with<B: AppliedForces<S, M>>(self, forces: B) -> B {
+        forces
+    }
 }
 
 impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for &A {
     const PRESENT: bool = A::PRESENT;
     const INTERACTS: bool = A::INTERACTS;
+    const HEEDS: bool = A::HEEDS;
+
+    type Tracked = A::Tracked;
+    type Own = A::Own;
+    type With<B: AppliedForces<S, M>> = B;
 
     #[inline(always)]
     fn apply(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>) {
         A::apply(self, time, state, loads);
+    }
+
+    fn tracked(&self, parameters: &M::Parameters<S>) -> A::Tracked
+    where
+        S: Real,
+    {
+        A::tracked(self, parameters)
+    }
+
+    fn own(&self, parameters: &M::Parameters<S>) -> A::Own
+    where
+        S: Real,
+    {
+        A::own(self, parameters)
+    }
+
+    fn with<B: AppliedForces<S, M>>(self, forces: B) -> B {
+        forces
     }
 
     fn interactions(&self) -> &[Tracked<S, M>] {
@@ -103,10 +184,39 @@ where
 {
     const PRESENT: bool = true;
 
+    type Tracked = M::PerLimit<Tracked<S, M>>;
+    type Own = Nothing;
+    type With<B: AppliedForces<S, M>> = B;
+
     #[inline]
     fn apply(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>) {
         (self.0)(time, state, loads);
     }
+
+    fn tracked(&self, parameters: &M::Parameters<S>) -> Self::Tracked
+    where
+        S: Real,
+    {
+        described::<S, M>(parameters)
+    }
+
+    fn own(&self, _parameters: &M::Parameters<S>) -> Nothing
+    where
+        S: Real,
+    {
+        Nothing
+    }
+
+    fn with<B: AppliedForces<S, M>>(self, forces: B) -> B {
+        forces
+    }
+}
+
+/// The limits of the description.
+fn described<S: Real, M: Mechanism>(parameters: &M::Parameters<S>) -> M::PerLimit<Tracked<S, M>> {
+    M::limits_of(parameters, |limits| {
+        Tracked::new(Interaction::of_description(limits))
+    })
 }
 
 /// Where a user adds forces (N) and moments (N m) on bodies. Contributions add up.

@@ -23,7 +23,7 @@ pub(crate) mod written;
 
 pub use angle_rates::{BryantAngleRates, EulerAngleRates, RollPitchYawRates};
 pub use angles::{BryantAngles, EulerAngles, RollPitchYaw};
-pub use interacting::Interacting;
+pub use interacting::{Heeding, Interacting, Unlimited};
 pub use load::{AppliedForces, ForceLaw, NoForces};
 #[cfg(feature = "serde")]
 pub use named_state::NamedState;

@@ -5,6 +5,7 @@ use core::fmt::Debug;
 use crate::error::{Fault, LeavesOut, ParameterError};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::coordinates::{Coordinates, Evaluation};
+use crate::mechanism::limits::{JointLimits, Several};
 use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
 use crate::mechanism::report::Report;
 use crate::mechanism::switch::Switch;
@@ -69,6 +70,9 @@ pub trait Mechanism: Sized + 'static {
     /// A struct with one handle per field of the mechanism, under the field's name; an array of
     /// handles where the field is an array.
     type Handles: Copy + Debug;
+    /// As many things as joints have limits.
+    #[doc(hidden)]
+    type PerLimit<T: Clone>: Several<T>;
 
     /// One handle per field of the mechanism, under the field's name.
     const HANDLES: Self::Handles;
@@ -87,6 +91,13 @@ pub trait Mechanism: Sized + 'static {
     /// A mass or an inertia that is not positive, an axis of length zero, a number that is not
     /// finite.
     fn parameters<S: Scalar>(&self) -> Result<Self::Parameters<S>, ParameterError>;
+
+    /// The limits of joints with parameters that were accepted, in the order of the fields.
+    #[doc(hidden)]
+    fn limits_of<S: Real, T: Clone>(
+        parameters: &Self::Parameters<S>,
+        make: impl FnMut(JointLimits<S>) -> T,
+    ) -> Self::PerLimit<T>;
 
     /// Checks by numbers that what was decided at typical values (`#[param(like = 0.8)]`) holds for
     /// the parameters of this value, unless they were accepted before: the mechanism can be

@@ -14,6 +14,7 @@ pub(crate) mod joint_kernels;
 pub(crate) mod joint_rates;
 pub(crate) mod joint_report;
 pub(crate) mod kernels;
+pub(crate) mod limits;
 pub(crate) mod orientations;
 pub(crate) mod point;
 pub(crate) mod readout;
@@ -41,6 +42,8 @@ pub use kernels::{
 };
 #[doc(hidden)]
 pub use kernels::{Normalised, Orientation};
+#[doc(hidden)]
+pub use limits::{JointLimits, Nothing, Several, Visit};
 #[doc(hidden)]
 pub use point::Place;
 pub use point::{Located, Point};

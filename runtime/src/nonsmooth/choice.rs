@@ -5,7 +5,7 @@ use crate::formulation::{Formulation, Solution};
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Place};
+use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors, Place};
 use crate::nonsmooth::capacities::Capacities;
 use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::interaction::Law;
@@ -21,6 +21,11 @@ const NO_ACCELERATION: f64 = 256.0;
 /// What has no freedom turns back at a dead point with more than this part of the acceleration that
 /// the forces would give it without constraints.
 const TURNING: f64 = 1e-9;
+
+/// What is held blocks a quantity of which it leaves less than this part of its compliance; at
+/// least so many `EPSILON`.
+const BLOCKED: f64 = 1e-9;
+const OF_BLOCKED: f64 = 1e4;
 
 /// Round-off of a gap, in `EPSILON` of its size.
 const OF_GAP: f64 = 16.0;
@@ -139,7 +144,30 @@ where
         let efforts = [effort, alone, work];
         setting.here(|scene| tracked.enter(mode, scene, efforts, &motions[index]));
     }
+    mark_blocked(list, &columns.delassus);
     Ok(())
+}
+
+/// Marks friction at its capacity that cannot move, because what is held blocks it.
+fn mark_blocked<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    matrix: &[[S; K]; K],
+) {
+    let holds = list.each_ref().map(|tracked| tracked.mode().holds());
+    for (index, tracked) in list.iter().enumerate() {
+        let status = tracked.status.get();
+        let is_still = status.next == Next::Still && status.mode.sliding::<S>().is_some();
+        let mut rests = false;
+        if is_still && holds.contains(&true) {
+            let column = matrix.each_ref().map(|row| row[index]);
+            let others = Factors::of(matrix, &holds).solve(&column);
+            let diagonal = matrix[index][index];
+            let terms = matrix[index].iter().zip(&others);
+            let rest = terms.fold(diagonal, |rest, (&w, &x)| (-w).fused(x, rest));
+            rests = rest <= part::<S>(BLOCKED, OF_BLOCKED) * diagonal;
+        }
+        tracked.update(|status| status.rests = rests);
+    }
 }
 
 /// Forces and moments on the bodies in the metric of the mass: with what a unit effort does without
@@ -257,7 +285,9 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             status.mode = mode;
             (status.effort, status.share) = (effort, effort);
         });
-        if let Law::Limits(limits) = &self.interaction.law {
+        if let Law::Limits(limits) = &self.interaction.law
+            && !self.interaction.is_dropped
+        {
             self.begin_turning(self.value_now(limits, scene), scene);
         }
         let reading = self.reading(scene);

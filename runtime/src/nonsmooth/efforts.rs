@@ -43,6 +43,17 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         Some(-sign * friction.sliding(rate))
     }
 
+    /// Its power (W) in a state, with the effort last asked for where it slides by its load. What
+    /// holds has none: its rate is zero.
+    pub(crate) fn power(&self, scene: &Scene<'_, S, M>) -> S {
+        let effort = match self.sliding_effort(scene) {
+            Some(effort) => effort,
+            None if self.slips_by_load() => self.status.get().effort,
+            None => return S::zero(),
+        };
+        effort * self.interaction.quantity.rate(scene)
+    }
+
     /// Whether it slides by its load.
     pub(crate) fn slips_by_load(&self) -> bool {
         self.bearing().is_some() && self.mode().sliding::<S>().is_some()

@@ -7,6 +7,7 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::handle::JointHandle;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::limits::JointLimits;
 use crate::mechanism::point::Located;
 use crate::nonsmooth::bearing::{Bearing, HasBearing};
 use crate::nonsmooth::place::{At, Plane};
@@ -20,6 +21,10 @@ pub struct Interaction<S, M> {
     pub(crate) law: Law<S>,
     /// A setting that its kind does not have.
     misplaced: Option<&'static str>,
+    /// It is a limit of the description.
+    pub(crate) is_described: bool,
+    /// It is not heeded.
+    pub(crate) is_dropped: bool,
     mechanism: PhantomData<fn() -> M>,
 }
 
@@ -116,8 +121,51 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
             quantity,
             law,
             misplaced: None,
+            is_described: false,
+            is_dropped: false,
             mechanism: PhantomData,
         }
+    }
+
+    /// The limits of a joint of the description.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn of_description(limits: JointLimits<S>) -> Self {
+        let reading = if limits.is_angle {
+            JointReading::Angle(limits.joint)
+        } else {
+            JointReading::Displacement(limits.joint)
+        };
+        let law = Limits {
+            bounds: limits.bounds,
+            restitution: limits.restitution,
+            rest: part_of_rest(),
+        };
+        let interaction = Self::new(Quantity::Joint(reading), Law::Limits(law));
+        Self {
+            is_described: true,
+            ..interaction
+        }
+    }
+
+    /// What holds nothing.
+    pub(crate) fn nothing() -> Self {
+        let limits = JointLimits {
+            joint: 0,
+            is_angle: true,
+            bounds: [S::zero(), S::one()],
+            restitution: S::zero(),
+        };
+        Self {
+            is_dropped: true,
+            ..Self::of_description(limits)
+        }
+    }
+
+    /// Whether it holds the same quantity between limits.
+    pub(crate) fn limits_the_same(&self, other: &Self) -> bool {
+        let are_limits = matches!((&self.law, &other.law), (Law::Limits(_), Law::Limits(_)));
+        are_limits && self.quantity == other.quantity
     }
 
     /// Stops at the lower and at the upper end of a quantity (rad, m), which it does not pass;
@@ -348,7 +396,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         self.with_friction("stiction", |friction| friction.stiction = Some(capacity))
     }
 
-    /// The rate `v0` (rad/s, m/s) by which friction falls from that of [`Interaction::stiction`] to
+    /// With [`Interaction::stiction`]: the rate `v0` (rad/s, m/s) by which friction falls from that of [`Interaction::stiction`] to
     /// that of sliding: `capacity + (stiction - capacity) exp(-(rate / v0)^2)` (Stribeck's curve;
     /// Armstrong-Helouvry, Dupont and Canudas de Wit, *A survey of models, analysis tools and
     /// compensation methods for the control of machines with friction*, 1994).
@@ -447,7 +495,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
                     return refuse("stiction", stiction);
                 }
                 if let Some(rate) = friction.stribeck
-                    && !(rate > zero && rate.is_finite())
+                    && !(rate > zero && rate.is_finite() && friction.stiction.is_some())
                 {
                     return refuse("stribeck", rate);
                 }

@@ -38,6 +38,7 @@ impl<S: Real> Status<S> {
         memory.flag(&mut self.is_engaged);
         memory.flag(&mut self.is_asked);
         memory.flag(&mut self.is_found);
+        memory.flag(&mut self.rests);
         let numbers = [
             &mut self.held,
             &mut self.effort,

@@ -97,6 +97,8 @@ pub(crate) struct Status<S> {
     pub(crate) share: S,
     /// The largest effort while it sticks, by the load when that was last asked for.
     pub(crate) capacity: S,
+    /// Friction at its capacity that does not move, for a limit bears the rest.
+    pub(crate) rests: bool,
     /// The last reading of the condition.
     pub(crate) reading: S,
     /// It has left its zero.
@@ -119,10 +121,19 @@ pub(crate) struct Status<S> {
 }
 
 /// An interaction with its status, which a run changes between steps.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Tracked<S: Scalar, M: Mechanism> {
     pub(crate) interaction: Interaction<S, M>,
     pub(crate) status: Cell<Status<S>>,
+}
+
+impl<S: Scalar, M: Mechanism> Clone for Tracked<S, M> {
+    fn clone(&self) -> Self {
+        Self {
+            interaction: self.interaction,
+            status: self.status.clone(),
+        }
+    }
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
@@ -165,10 +176,23 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         self.status.get().mode
     }
 
+    /// The mode as it is told: what does not move sticks, at its capacity as well.
+    pub(crate) fn told_mode(&self) -> InteractionMode {
+        let status = self.status.get();
+        if status.rests && status.mode.sliding::<S>().is_some() {
+            InteractionMode::Sticking
+        } else {
+            status.mode
+        }
+    }
+
     /// The reading of the condition under which the present mode ends: positive as long as it is
     /// right. Infinite of a mode that does not end by itself.
     pub(crate) fn reading(&self, scene: &Scene<'_, S, M>) -> S {
         let never = S::constant(f64::INFINITY);
+        if self.interaction.is_dropped {
+            return never;
+        }
         let status = self.status.get();
         let Interaction { quantity, law, .. } = &self.interaction;
         match (status.mode, law) {
@@ -208,6 +232,7 @@ impl<S: Real> Status<S> {
             effort: S::zero(),
             share: S::zero(),
             capacity: S::zero(),
+            rests: false,
             reading: S::zero(),
             has_left: true,
             band: S::zero(),

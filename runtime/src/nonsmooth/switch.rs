@@ -94,6 +94,9 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         scene: &Scene<'_, S, M>,
         is_moved: bool,
     ) -> Result<Option<S>, Fault> {
+        if self.interaction.is_dropped {
+            return Ok(None);
+        }
         let status = self.status.get();
         let [lower, upper] = limits.bounds;
         let size = self.size(scene);
@@ -158,7 +161,8 @@ where
     for (index, tracked) in list.iter().enumerate() {
         match &tracked.interaction.law {
             Law::Limits(limits) => {
-                at_limit[index] = setting.here(|scene| tracked.limit(limits, scene, is_moved))?;
+                let limit = setting.here(|scene| tracked.limit(limits, scene, is_moved));
+                at_limit[index] = limit.map_err(|fault| driven(setting, list, index, fault))?;
             }
             Law::Friction(_) => is_engaged[index] = tracked.status.get().is_engaged,
         }
@@ -250,6 +254,53 @@ where
         });
     }
     Ok(())
+}
+
+/// The fault of a quantity beyond its limit, where a driver has moved it there: it has no
+/// compliance, so that no stop holds it.
+#[cold]
+fn driven<S, M, F, C, const K: usize>(
+    setting: &Setting<'_, S, M, F, C>,
+    list: &[Tracked<S, M>; K],
+    index: usize,
+    fault: Fault,
+) -> Fault
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    let Fault::BeyondLimit { joint, limit, .. } = fault else {
+        return fault;
+    };
+    let chosen = core::array::from_fn(|other| other == index);
+    let columns = Columns::of(setting, list, &chosen);
+    let is_free = columns.is_ok_and(|columns| columns.delassus[index][index] > S::zero());
+    if !M::REPORT.time.constraints || is_free {
+        return fault;
+    }
+    let by_time = setting.here(|scene| {
+        let velocities = M::Velocities::<S>::zeros();
+        let at_rest = M::State::from_parts(*scene.bodies.coordinates(), velocities);
+        M::constraint_rates(scene.constants, scene.time, &at_rest)
+    });
+    let rates = by_time.as_slice().iter().enumerate();
+    let mut fastest = (0, S::zero());
+    for (row, rate) in rates {
+        if rate.abs() > fastest.1 {
+            fastest = (row, rate.abs());
+        }
+    }
+    match M::REPORT.joint_of(fastest.0) {
+        Some(driver) if fastest.1 > S::zero() => Fault::DrivenAgainst {
+            joint,
+            driver,
+            limit,
+            time: setting.saddle.time.to_f64(),
+        },
+        _ => fault,
+    }
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {

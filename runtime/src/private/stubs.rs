@@ -56,6 +56,7 @@ macro_rules! __stub_mechanism {
                 type Factors<__S: $crate::Scalar> = [__S; 0];
                 type Coordinates = $crate::mechanism::Absolute;
                 type Handles = __Handles<Self>;
+                type PerLimit<__T: ::core::clone::Clone> = $crate::mechanism::Nothing;
                 const HANDLES: __Handles<Self> = __Handles {
                     $($field: $crate::__stub_mechanism!(@value $([$length])? $kind $($path)?),)*
                     __mechanism: ::core::marker::PhantomData,
@@ -86,6 +87,9 @@ macro_rules! __stub_mechanism {
                 };
                 fn parameters<__S: $crate::Scalar>(&self) -> ::core::result::Result<[__S; 0], $crate::ParameterError> { loop {} }
                 fn inputs<__S: $crate::Scalar>(&self) -> Self::Inputs<__S> { loop {} }
+                fn limits_of<__S: $crate::Real, __T: ::core::clone::Clone>(
+                    _: &[__S; 0], _: impl ::core::ops::FnMut($crate::mechanism::JointLimits<__S>) -> __T,
+                ) -> $crate::mechanism::Nothing { $crate::mechanism::Nothing }
                 fn prepare<__S: $crate::Scalar>(_: &[__S; 0]) -> [__S; 0] { [] }
                 fn coefficients_by_row<__S: $crate::Scalar>(_: &[__S; 0], _: &$crate::mechanism::Stabilisation<__S>, _: &[__S; 0]) -> [__S; 0] { [] }
                 fn initial_state<__S: $crate::Scalar>(_: &[__S; 0]) -> Self::State<__S> { loop {} }

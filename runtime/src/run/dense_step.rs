@@ -2,16 +2,15 @@
 
 use core::fmt::{self, Debug};
 
-use crate::dynamics::Dynamics;
-use crate::error::Fault;
+use crate::error::{Fault, Unheeding};
 use crate::formulation::Formulation;
-use crate::integrate::{OneStep, Scheme, StepWithin};
+use crate::integrate::{Scheme, StepWithin};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
-use crate::run::stepper::Stepper;
+use crate::run::stepper::{Stepper, Steps};
 
 /// A step that was taken by [`Stepper::step_dense`], for [`Stepper::within`].
 pub struct DenseStep<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> {
@@ -47,7 +46,7 @@ where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    K: OneStep<S, Dynamics<S, M, F, A, C>>,
+    K: Steps<S, M, F, C, A>,
     A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
@@ -79,7 +78,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// As [`Stepper::step`]. State and time are then as before.
+    /// As [`Stepper::step`], and [`Fault::LimitsLeftOut`] of limits and other interactions. State and
+    /// time are then as before.
     pub fn step_dense(
         &mut self,
         state: &mut C::State<S>,
@@ -97,6 +97,12 @@ where
         state: &C::State<S>,
         dt: S,
     ) -> Result<DenseStep<S, M, K, C>, Fault> {
+        if let Some(first) = self.dynamics.tracked().first() {
+            return Err(Fault::LimitsLeftOut {
+                joint: first.interaction.name(),
+                by: Unheeding::DenseStep,
+            });
+        }
         let start = self.time();
         self.checked(state, dt)?;
         let step = StepWithin::take(self.scheme, &mut self.dynamics, (start, state), dt)?;

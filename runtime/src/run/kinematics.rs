@@ -16,6 +16,7 @@ use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::kernels::{Mechanism, bodies_alone};
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Warnings;
+use crate::nonsmooth::described::check_limits;
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
 use crate::run::sample::Sample;
 use crate::state::vector::{Array, StateParts};
@@ -51,6 +52,7 @@ pub struct KinematicAnalysis<'a, S: Real, M: Mechanism, F, A = NoForces> {
     forces: A,
     initial: Option<M::State<S>>,
     projection: Projection<S>,
+    heeds_limits: bool,
 }
 
 impl<S: Real, M: Mechanism, F: Clone, A: Clone> Clone for KinematicAnalysis<'_, S, M, F, A> {
@@ -122,6 +124,7 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>> KinematicAnalysis<'a, S, M, F
             forces: NoForces,
             initial: None,
             projection: Projection::default(),
+            heeds_limits: true,
         }
     }
 }
@@ -141,6 +144,13 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>, A> KinematicAnalysis<'a, S, M
         self
     }
 
+    /// Passes the limits of the description, which end an analysis otherwise.
+    #[must_use]
+    pub fn without_limits(mut self) -> Self {
+        self.heeds_limits = false;
+        self
+    }
+
     /// Applies forces as a function of time and state,
     /// `|time, state, loads| loads.force(body, ...)`. The motion does not depend on them, reactions
     /// and driving efforts do.
@@ -155,6 +165,7 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>, A> KinematicAnalysis<'a, S, M
             forces: ForceLaw(law),
             initial: self.initial,
             projection: self.projection,
+            heeds_limits: self.heeds_limits,
         }
     }
 }
@@ -175,7 +186,8 @@ where
     /// # Errors
     /// Time, cause and last good state where the analysis cannot go on: [`Fault::NotDriven`] for a
     /// mechanism with fewer equations than velocities, [`Fault::Undetermined`] where they leave a
-    /// motion free all the same, [`Fault::NotConverged`] where no pose is found, and what an
+    /// motion free all the same, [`Fault::NotConverged`] where no pose is found,
+    /// [`Fault::BeyondLimit`] of a pose beyond a limit of the description, and what an
     /// evaluation or a run may refuse. The state is of zeros where a parameter was refused and no
     /// initial state had been given.
     pub fn run<O, R>(
@@ -231,6 +243,11 @@ where
         let mut poses = 1;
         loop {
             *last_good = (found.time, found.state);
+            if self.heeds_limits {
+                let dynamics = &motion.dynamics;
+                let (parameters, constants) = (dynamics.parameters(), dynamics.constants());
+                check_limits::<S, M>(parameters, constants, (found.time, &found.state))?;
+            }
             let view = motion.dynamics.view(found.time, &found.state);
             worst_violation = worst_violation.max(view.violation());
             let sample = Sample::evaluated(view, &motion.dynamics, found.evaluation);

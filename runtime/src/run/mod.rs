@@ -31,6 +31,7 @@ mod deferred;
 pub(crate) mod dense_step;
 pub(crate) mod direct;
 pub(crate) mod events;
+pub(crate) mod interactions;
 pub(crate) mod kinematics;
 pub(crate) mod output;
 pub(crate) mod past;
@@ -53,7 +54,7 @@ pub(crate) mod within;
 mod written;
 
 pub use crate::nonsmooth::bearing::HasBearing;
-pub use crate::nonsmooth::described::Limited;
+pub use crate::nonsmooth::described::{Beside, Limited};
 pub use crate::nonsmooth::interaction::Interaction;
 pub use crate::nonsmooth::place::Plane;
 pub use crate::nonsmooth::quantity::JointQuantity;
@@ -63,15 +64,16 @@ pub use checkpoint::Checkpoint;
 pub use companion::{BodyError, Verification};
 pub use dense_step::DenseStep;
 pub use events::context::Event;
-pub use events::hybrid::{Handling, HybridSimulation, Simulated, With, WithInteractions};
+pub use events::hybrid::{Handling, HybridSimulation, Simulated, With};
 pub use events::list::{Happenings, NothingHappens};
-pub use events::stepper_modes::InteractingStepper;
 pub use events::watch::Crossing;
+pub use interactions::WithInteractions;
 pub use kinematics::KinematicResult;
 pub use output::{IntoFlow, Reporting};
 pub use post_step::{PostStabilisation, TreeRecovery, VelocityProjection};
 #[cfg(feature = "recorder")]
 pub use record_error::RecordError;
 pub use simulate::Simulate;
+pub use stepper::{InteractingStepper, Steps};
 #[cfg(feature = "std")]
 pub use trajectory::Trajectory;

@@ -15,6 +15,7 @@ use crate::mechanism::coordinates::Evaluation;
 use crate::mechanism::handle::{BodyHandle, Driven, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
+use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{Impact, InteractionMode, Tracked};
 use crate::state::vector::StateParts;
 
@@ -210,7 +211,29 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// # Errors
     /// [`Fault::NoSuchInteraction`].
     pub fn mode(&self, number: usize) -> Result<InteractionMode, Fault> {
-        Ok(self.tracked(number)?.mode())
+        Ok(self.tracked(number)?.told_mode())
+    }
+
+    /// The power (W) of the forces of the language that have no potential
+    /// ([`View::power`]), and of the interactions: what changes the energy of a mechanism without
+    /// drivers and without a force closure, besides impacts ([`Impact::lost_energy`]). One
+    /// evaluation where friction slides by its load; NaN where that cannot be done.
+    #[must_use]
+    pub fn power(&self) -> S {
+        let list = self.dynamics.interactions();
+        if list.iter().any(Tracked::slips_by_load) {
+            let found = self.dynamics.find_efforts(self.time(), self.state());
+            if found.is_err() {
+                return S::constant(f64::NAN);
+            }
+        }
+        let scene = Scene {
+            constants: self.view.constants(),
+            time: self.time(),
+            bodies: self.state(),
+        };
+        let power = |power: S, tracked: &Tracked<S, M>| tracked.power(&scene) + power;
+        list.iter().fold(self.view.power(), power)
     }
 
     /// The effort of an interaction (N m, N) along its quantity, positive upwards. One evaluation.

@@ -12,10 +12,12 @@ use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{Counts, Integrator, Method};
 use crate::math::scalar::Real;
+use crate::measure::interacting::Heeding;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation};
+use crate::mechanism::limits::Several as _;
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Monitor;
 use crate::run::companion::Companion;
@@ -245,17 +247,6 @@ where
         self
     }
 
-    /// The parameters; zeros of those that a run refuses.
-    pub(super) fn given(&self) -> M::Parameters<S> {
-        match self.mechanism {
-            Source::Mechanism(mechanism) => {
-                let parameters = mechanism.parameters::<S>();
-                parameters.unwrap_or_else(|_| M::Parameters::zeros())
-            }
-            Source::Parameters(parameters) => parameters,
-        }
-    }
-
     pub(super) fn exchange<A2, C2>(
         self,
         forces: impl FnOnce(A) -> A2,
@@ -286,11 +277,12 @@ where
     ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.
     #[must_use]
-    pub fn forces<G>(self, law: G) -> Simulation<'a, S, M, F, I, ForceLaw<G>, C>
+    pub fn forces<G>(self, law: G) -> Simulation<'a, S, M, F, I, A::With<ForceLaw<G>>, C>
     where
+        A: AppliedForces<S, M>,
         G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
     {
-        self.exchange(|_| ForceLaw(law))
+        self.exchange(|forces| forces.with(ForceLaw(law)))
     }
 
     /// Solves the equations of motion in other coordinates: `.coordinates::<Relative>()`.
@@ -437,8 +429,9 @@ where
             Source::Mechanism(mechanism) => Dynamics::new(mechanism, self.formulation),
             Source::Parameters(given) => Dynamics::of_parameters(given, self.formulation),
         }?;
-        let mut dynamics = dynamics.with_forces(&self.forces).coordinates::<C>();
         let given = *dynamics.parameters();
+        let forces = Heeding::new(&self.forces, &given);
+        let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
         if let Some(past) = past {
             take_values(&mut dynamics, past)?;
         }
@@ -450,12 +443,18 @@ where
         );
         check_interval(start, end)?;
         check_interval(last_good.0, end)?;
+        if let Some(instant) = self.breaks.iter().find(|instant| !instant.is_finite()) {
+            return Err(Fault::BreakNotFinite {
+                instant: instant.to_f64(),
+            });
+        }
         let schedule = Schedule::new(start, end, reporting)?;
         let schedule = schedule.after(past.map_or(0, |past| past.progress.reports));
-        // Laws that switch make events of their own.
+        // Laws that switch and interactions make events of their own.
+        let has_events = !M::SWITCHES.is_empty() || A::Tracked::COUNT > 0;
         let mut nothing = NothingHappens;
         let happenings = match happenings {
-            None if !M::SWITCHES.is_empty() => Some(&mut nothing as &mut dyn Happenings<S, M>),
+            None if has_events => Some(&mut nothing as &mut dyn Happenings<S, M>),
             other => other,
         };
         let hybrid = happenings.map(|list| self.hybrid(list, (start, end), &given, past));
@@ -556,7 +555,7 @@ where
 /// }
 /// ```
 pub trait Runs<S, M, F, C = <M as Mechanism>::Coordinates, A = NoForces>:
-    for<'f> Integrator<S, Dynamics<S, M, F, &'f A, C>>
+    for<'f> Integrator<S, Dynamics<S, M, F, Heeding<S, M, &'f A>, C>>
 where
     S: Real,
     M: Mechanism,
@@ -568,7 +567,7 @@ where
 
 impl<I, S, M, F, A, C> Runs<S, M, F, C, A> for I
 where
-    I: for<'f> Integrator<S, Dynamics<S, M, F, &'f A, C>>,
+    I: for<'f> Integrator<S, Dynamics<S, M, F, Heeding<S, M, &'f A>, C>>,
     S: Real,
     M: Mechanism,
     F: Formulation<S>,

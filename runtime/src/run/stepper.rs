@@ -10,11 +10,17 @@ use crate::formulation::Formulation;
 use crate::integrate::{OneStep, Scheme, System as _};
 use crate::math::clock::Clock;
 use crate::math::scalar::Real;
+use crate::measure::interacting::{Heeding, Interacting, Unlimited};
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::measure::view::View;
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation};
+use crate::nonsmooth::described::Beside;
+use crate::nonsmooth::interaction::Interaction;
+
+/// The equations that a [`Stepper`] moves: with forces `A`, and the limits of the description.
+type Prepared<S, M, F, A, C> = Dynamics<S, M, F, Heeding<S, M, A>, C>;
 
 /// A mechanism, a formulation and a one-step method, prepared: takes one step at a time.
 ///
@@ -59,17 +65,25 @@ pub struct Stepper<
     M: Mechanism,
     F: Formulation<S>,
     K,
-    A = NoForces,
+    A: AppliedForces<S, M> = NoForces,
     C: Coordinates<M> = <M as Mechanism>::Coordinates,
 > {
-    pub(crate) dynamics: Dynamics<S, M, F, A, C>,
+    pub(crate) dynamics: Prepared<S, M, F, A, C>,
     pub(crate) scheme: K,
-    clock: Clock<S>,
+    pub(super) clock: Clock<S>,
     projection: Option<Projection<S>>,
+    /// Whether the settings of interactions were accepted.
+    pub(super) has_begun: bool,
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>, K: Copy, A: Clone, C: Coordinates<M>> Clone
-    for Stepper<S, M, F, K, A, C>
+impl<S, M, F, K, A, C> Clone for Stepper<S, M, F, K, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    K: Copy,
+    A: AppliedForces<S, M> + Clone,
+    C: Coordinates<M>,
 {
     fn clone(&self) -> Self {
         Self {
@@ -77,13 +91,20 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, K: Copy, A: Clone, C: Coordinates
             scheme: self.scheme,
             clock: self.clock,
             projection: self.projection,
+            has_begun: self.has_begun,
         }
     }
 }
 
 /// The name of the mechanism, and the method.
-impl<S: Real, M: Mechanism, F: Formulation<S>, K: Debug, A, C: Coordinates<M>> Debug
-    for Stepper<S, M, F, K, A, C>
+impl<S, M, F, K, A, C> Debug for Stepper<S, M, F, K, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    K: Debug,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Stepper")
@@ -92,6 +113,10 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, K: Debug, A, C: Coordinates<M>> D
             .finish_non_exhaustive()
     }
 }
+
+/// A [`Stepper`] with `N` interactions, the limits of the description among them.
+pub type InteractingStepper<S, M, F, K, A, C, const N: usize> =
+    Stepper<S, M, F, K, Interacting<S, M, A, N>, C>;
 
 impl<S, M, F, K> Stepper<S, M, F, K, NoForces, M::Coordinates>
 where
@@ -106,11 +131,14 @@ where
     /// # Errors
     /// A parameter of the mechanism or a coefficient of the formulation that is not acceptable.
     pub fn new(mechanism: &M, formulation: F, scheme: K) -> Result<Self, Fault> {
+        let dynamics = Dynamics::new(mechanism, formulation)?;
+        let forces = Heeding::new(NoForces, dynamics.parameters());
         Ok(Self {
-            dynamics: Dynamics::new(mechanism, formulation)?,
+            dynamics: dynamics.with_forces(forces),
             scheme,
             clock: Clock::at(S::zero()),
             projection: None,
+            has_begun: false,
         })
     }
 }
@@ -121,18 +149,30 @@ where
     M: Mechanism,
     F: Formulation<S>,
     K: Scheme<S>,
+    A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
-    pub(super) fn exchange<A2, C2: Coordinates<M>>(
+    fn exchange<A2: AppliedForces<S, M>, C2: Coordinates<M>>(
         self,
-        exchange: impl FnOnce(Dynamics<S, M, F, A, C>) -> Dynamics<S, M, F, A2, C2>,
+        exchange: impl FnOnce(Prepared<S, M, F, A, C>) -> Prepared<S, M, F, A2, C2>,
     ) -> Stepper<S, M, F, K, A2, C2> {
         Stepper {
             dynamics: exchange(self.dynamics),
             scheme: self.scheme,
             clock: self.clock,
             projection: self.projection,
+            has_begun: false,
         }
+    }
+
+    /// With other forces, or other interactions.
+    fn exchange_forces<A2: AppliedForces<S, M>>(
+        self,
+        exchange: impl FnOnce(A) -> A2,
+    ) -> Stepper<S, M, F, K, A2, C> {
+        let parameters = *self.dynamics.parameters();
+        let renew = |old: Heeding<S, M, A>| Heeding::new(exchange(old.into_forces()), &parameters);
+        self.exchange(|dynamics| dynamics.exchange_forces(renew))
     }
 
     /// Begins at a time (s).
@@ -151,11 +191,55 @@ where
 
     /// Applies forces as a function of time and state of the bodies, see [`Loads`].
     #[must_use]
-    pub fn forces<G>(self, law: G) -> Stepper<S, M, F, K, ForceLaw<G>, C>
+    pub fn forces<G>(self, law: G) -> Stepper<S, M, F, K, A::With<ForceLaw<G>>, C>
     where
         G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
     {
-        self.exchange(|dynamics| dynamics.forces(law))
+        self.exchange_forces(|forces| forces.with(ForceLaw(law)))
+    }
+
+    /// Adds limits, dry friction, brakes and clutches, see
+    /// [`Simulation::interactions`](crate::Simulation::interactions).
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// # #[derive(Mechanism)]
+    /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// # struct Rod {
+    /// #     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+    /// #     rod: Body,
+    /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    /// #     hinge: Revolute,
+    /// # }
+    /// let (rod, h) = (Rod::default(), Rod::HANDLES);
+    /// let limits = Interaction::limits(h.hinge.angle(), [-1.0, 1.0]).restitution(0.5);
+    /// let mut stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)?
+    ///     .interactions([limits]);
+    /// let mut state = stepper.initial_state()?;
+    /// for _ in 0..4000 {
+    ///     stepper.step(&mut state, 1e-3)?;
+    /// }
+    /// let bodies = stepper.bodies(&state);
+    /// assert!((stepper.view(&bodies).angle(h.hinge) + 1.0).abs() < 1e-9); // it rests there
+    /// # Ok::<(), Fault>(())
+    /// ```
+    #[must_use]
+    pub fn interactions<const N: usize, const ALL: usize>(
+        self,
+        interactions: [Interaction<S, M>; N],
+    ) -> InteractingStepper<S, M, F, K, A, C, ALL>
+    where
+        M: Beside<N, ALL>,
+    {
+        const { assert!(!A::INTERACTS, "`interactions` are said once, in one list") };
+        self.exchange_forces(|forces| Interacting::new(forces, M::beside(interactions)))
+    }
+
+    /// Passes the limits of the description as if there were none, see
+    /// [`Simulation::without_limits`](crate::Simulation::without_limits).
+    #[must_use]
+    pub fn without_limits(self) -> Stepper<S, M, F, K, Unlimited<A>, C> {
+        self.exchange_forces(Unlimited)
     }
 
     /// Solves the equations of motion in other coordinates: `.coordinates::<Relative>()`.
@@ -244,17 +328,14 @@ where
     ///
     /// # Errors
     /// As [`Dynamics::evaluate`].
-    pub fn multipliers(&self, bodies: &M::State<S>) -> Result<M::Multipliers<S>, Fault>
-    where
-        A: AppliedForces<S, M>,
-    {
+    pub fn multipliers(&self, bodies: &M::State<S>) -> Result<M::Multipliers<S>, Fault> {
         let evaluation = self.dynamics.evaluate_bodies(self.time(), bodies)?;
         Ok(evaluation.multipliers)
     }
 
-    /// The prepared dynamics, for evaluations outside a step.
+    /// The prepared dynamics, for evaluations outside a step; with interactions in their modes.
     #[must_use]
-    pub fn dynamics(&self) -> &Dynamics<S, M, F, A, C> {
+    pub fn dynamics(&self) -> &Prepared<S, M, F, A, C> {
         &self.dynamics
     }
 
@@ -271,19 +352,29 @@ where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    K: OneStep<S, Dynamics<S, M, F, A, C>>,
+    K: OneStep<S, Prepared<S, M, F, A, C>>,
     A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
     /// Moves the state by one step of `dt` (s).
+    ///
+    /// With limits of the description or other interactions it finds the modes at its start, so
+    /// inputs may jump there, and those that begin and end within it. A step is then looked into at
+    /// 18 instants. Each mode that ends begins a further step over the rest, of which there are at
+    /// most 8, and 4 for each interaction. So the cost is bounded.
     ///
     /// The steps add up to the time without a growing error. A mechanism with laws of time refuses
     /// a step below the resolution of the time, [`Fault::StepTooShort`]; without them the time does
     /// not matter.
     ///
     /// # Errors
-    /// Why the step could not be done. State and time are then as before.
+    /// Why the step could not be done; with interactions those of
+    /// [`Simulation::interactions`](crate::Simulation::interactions). State, time and modes are
+    /// then as before.
     pub fn step(&mut self, state: &mut C::State<S>, dt: S) -> Result<(), Fault> {
+        if <Heeding<S, M, A> as AppliedForces<S, M>>::INTERACTS {
+            return self.step_with_modes(state, dt);
+        }
         let time = self.time();
         let clock = self.checked(state, dt)?;
         if let Some(projection) = self.projection {
@@ -365,6 +456,31 @@ where
         self.set_inputs(inputs)?;
         self.step(state, dt)
     }
+}
+
+/// Schemes that step a mechanism `M` by a formulation `F`, with forces `A` of a closure and in the
+/// coordinates `C`. It is implemented by every scheme for such a system; a function that is generic
+/// over schemes asks for it.
+pub trait Steps<S, M, F, C = <M as Mechanism>::Coordinates, A = NoForces>:
+    OneStep<S, Prepared<S, M, F, A, C>>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+    A: AppliedForces<S, M>,
+{
+}
+
+impl<K, S, M, F, C, A> Steps<S, M, F, C, A> for K
+where
+    K: OneStep<S, Prepared<S, M, F, A, C>>,
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+    A: AppliedForces<S, M>,
+{
 }
 
 /// The clock after a step, if that is one.

@@ -15,7 +15,7 @@ use nalgebra::SVector;
 
 use super::Differentiable;
 use crate::dynamics::Dynamics;
-use crate::error::{Fault, LeavesOut};
+use crate::error::{Fault, LeavesOut, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::{Forward, Lifted, lifted};
 use crate::independent::{Along, IndependentCoordinates};
@@ -27,6 +27,7 @@ use crate::mechanism::coordinates::Relative;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::bodies_alone;
+use crate::nonsmooth::described::refuse_limits;
 use crate::state::vector::Array as _;
 
 /// The directions that one step takes, as many as [`Lifted`] numbers have.
@@ -200,7 +201,8 @@ where
     /// - What a step refuses, and [`IndependentCoordinates::mass`].
     /// - [`Fault::RatesNotFinite`]: a cost or its gradient is not finite.
     /// - [`Fault::StateLeftOut`] of states of the user's own, [`Fault::SwitchLeftOut`] of laws that
-    ///   switch.
+    ///   switch, [`Fault::LimitsLeftOut`] of limits in the description, unless the space is
+    ///   [`without_limits`](IndependentCoordinates::without_limits).
     pub fn gradient<const U: usize, const P: usize>(
         &self,
         start: &M::JointState<S>,
@@ -210,6 +212,9 @@ where
         cost: impl Fn(&Instant<'_, M, U, S>) -> Lifted<S>,
     ) -> Result<Gradient<M::JointState<S>, N, U, P, S>, Fault> {
         bodies_alone::<M>(LeavesOut::Linearisation)?;
+        if !self.space.passes_limits {
+            refuse_limits::<M>(Unheeding::Derivatives)?;
+        }
         if let Some(switch) = M::SWITCHES.first() {
             return Err(Fault::SwitchLeftOut { law: switch.law });
         }

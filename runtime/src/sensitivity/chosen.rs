@@ -60,6 +60,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         Ok(Sensitivities {
             parameters,
             start: Some(start),
+            passes_limits: self.passes_limits,
         })
     }
 }

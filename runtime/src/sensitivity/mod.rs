@@ -42,6 +42,8 @@ use crate::state::vector::Array as _;
 pub struct Sensitivities<M: Mechanism, const K: usize, S: Real = f64> {
     pub(crate) parameters: M::Parameters<Forward<S, K>>,
     pub(crate) start: Option<M::State<Forward<S, K>>>,
+    /// Whether the limits of the description are left out.
+    pub(crate) passes_limits: bool,
 }
 
 impl<M: Mechanism, const K: usize, S: Real> Clone for Sensitivities<M, K, S> {
@@ -119,6 +121,7 @@ pub trait SensitivityExt: Mechanism {
         Ok(Sensitivities {
             parameters,
             start: None,
+            passes_limits: false,
         })
     }
 }
@@ -133,6 +136,14 @@ impl<M: Mechanism, const K: usize, S: Real> Sensitivities<M, K, S> {
     #[must_use]
     pub fn initial_state(mut self, state: M::State<Forward<S, K>>) -> Self {
         self.start = Some(state);
+        self
+    }
+
+    /// Passes the limits of the description. Runs that carry derivatives do not heed them, and are
+    /// refused otherwise.
+    #[must_use]
+    pub fn without_limits(mut self) -> Self {
+        self.passes_limits = true;
         self
     }
 

@@ -5,15 +5,17 @@ use core::ops::RangeInclusive;
 
 use super::Sensitivities;
 use super::start::check_derivatives;
-use crate::error::{Fault, SimulationError};
+use crate::error::{Fault, SimulationError, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::Forward;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
+use crate::measure::interacting::Unlimited;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::described::refuse_limits;
 use crate::run::output::{IntoFlow, Reporting};
 use crate::run::report::RunResult;
 use crate::run::sample::Sample;
@@ -39,7 +41,7 @@ pub struct SensitivitySimulation<
     C = <M as Mechanism>::Coordinates,
 > {
     along: Sensitivities<M, K, S>,
-    simulation: Simulation<'static, Forward<S, K>, M, F, I, A, C>,
+    simulation: Simulation<'static, Forward<S, K>, M, F, I, Unlimited<A>, C>,
 }
 
 impl<M: Mechanism, F: Debug, I: Debug, const K: usize, S: Real, A, C> Debug
@@ -64,7 +66,10 @@ where
         let simulation = Simulation::of_parameters(along.parameters, formulation, integrator);
         Self {
             along,
-            simulation: simulation.unmonitored().initial_state(along.start()),
+            simulation: simulation
+                .unmonitored()
+                .initial_state(along.start())
+                .without_limits(),
         }
     }
 }
@@ -75,12 +80,20 @@ where
     F: Formulation<Forward<S, K>>,
     I: Method<Forward<S, K>>,
     S: Real,
+    A: AppliedForces<Forward<S, K>, M>,
     C: Coordinates<M>,
 {
+    /// Passes the limits of the description, which are refused otherwise.
+    #[must_use]
+    pub fn without_limits(mut self) -> Self {
+        self.along.passes_limits = true;
+        self
+    }
+
     /// Applies forces as a function of time and state, over numbers that carry derivatives, see
     /// [`Simulation::forces`].
     #[must_use]
-    pub fn forces<G>(self, law: G) -> SensitivitySimulation<M, F, I, K, S, ForceLaw<G>, C>
+    pub fn forces<G>(self, law: G) -> SensitivitySimulation<M, F, I, K, S, A::With<ForceLaw<G>>, C>
     where
         G: Fn(Forward<S, K>, &M::State<Forward<S, K>>, &mut Loads<'_, Forward<S, K>, M>),
     {
@@ -116,7 +129,7 @@ impl<M, F, I, const K: usize, S, A, C> SensitivitySimulation<M, F, I, K, S, A, C
 where
     M: Mechanism,
     F: Formulation<Forward<S, K>>,
-    I: Runs<Forward<S, K>, M, F, C, A>,
+    I: Runs<Forward<S, K>, M, F, C, Unlimited<A>>,
     S: Real,
     A: AppliedForces<Forward<S, K>, M>,
     C: Coordinates<M>,
@@ -127,7 +140,8 @@ where
     /// # Errors
     /// As [`Simulation::run`]; [`Fault::StartOpens`](crate::Fault::StartOpens) where the
     /// derivatives of the start violate those of the constraints;
-    /// [`Fault::SwitchLeftOut`] where a law switches.
+    /// [`Fault::SwitchLeftOut`] where a law switches; [`Fault::LimitsLeftOut`] of limits in the
+    /// description, unless [`SensitivitySimulation::without_limits`] is said.
     pub fn run<O, R>(
         &self,
         interval: RangeInclusive<S>,
@@ -144,6 +158,12 @@ where
         let state = self.along.start();
         if let Some(switch) = M::SWITCHES.first() {
             let (time, fault) = (from.to_f64(), Fault::SwitchLeftOut { law: switch.law });
+            return Err(SimulationError { time, fault, state }.into());
+        }
+        if !self.along.passes_limits
+            && let Err(fault) = refuse_limits::<M>(Unheeding::Derivatives)
+        {
+            let time = from.to_f64();
             return Err(SimulationError { time, fault, state }.into());
         }
         check_derivatives::<M, K, S>(&constants, start, &state).map_err(|fault| {

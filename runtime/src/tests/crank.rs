@@ -80,6 +80,7 @@ impl Mechanism for Crank {
     type Coefficients<S: Scalar> = [S; 8];
     type Factors<S: Scalar> = dense::Factors<S, 36, 6>;
     type Handles = ();
+    type PerLimit<T: Clone> = crate::mechanism::Nothing;
 
     const HANDLES: () = ();
     const REPORT: Report = Report {
@@ -118,6 +119,13 @@ impl Mechanism for Crank {
     };
 
     fn inputs<S: Scalar>(&self) {}
+
+    fn limits_of<S: crate::Real, T: Clone>(
+        _: &Self::Parameters<S>,
+        _: impl FnMut(crate::mechanism::JointLimits<S>) -> T,
+    ) -> crate::mechanism::Nothing {
+        crate::mechanism::Nothing
+    }
 
     fn parameters<S: Scalar>(&self) -> Result<[S; 3], ParameterError> {
         Ok([self.start, self.speed, self.acceleration].map(S::constant))

@@ -74,6 +74,7 @@ impl Mechanism for Rod {
     type Coefficients<S: Scalar> = [S; 7];
     type Factors<S: Scalar> = Factors<S>;
     type Handles = ();
+    type PerLimit<T: Clone> = crate::mechanism::Nothing;
 
     const HANDLES: () = ();
     const REPORT: Report = Report {
@@ -133,6 +134,13 @@ impl Mechanism for Rod {
     };
 
     fn inputs<S: Scalar>(&self) {}
+
+    fn limits_of<S: crate::Real, T: Clone>(
+        _: &Self::Parameters<S>,
+        _: impl FnMut(crate::mechanism::JointLimits<S>) -> T,
+    ) -> crate::mechanism::Nothing {
+        crate::mechanism::Nothing
+    }
 
     fn parameters<S: Scalar>(&self) -> Result<[S; 1], ParameterError> {
         let fault = if !self.mass.is_finite() {

@@ -1,16 +1,17 @@
 //! Steps of a `Stepper` up to an event.
 
-use holonom::integrate::{DormandPrince5, DormandPrince8, OneStep};
+use holonom::Heun;
+use holonom::integrate::{DormandPrince5, DormandPrince8};
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::{Heun, dynamics::Dynamics, measure::NoForces};
+use holonom::run::Steps;
 
 use super::{Ball, GRAVITY};
 
 fn bounces<K, C>(scheme: K, dt: f64)
 where
     C: Coordinates<Ball>,
-    K: OneStep<f64, Dynamics<f64, Ball, StandardLagrange, NoForces, C>>,
+    K: Steps<f64, Ball, StandardLagrange, C>,
 {
     let (ball, h) = (Ball::default(), Ball::HANDLES);
     let mut stepper = Stepper::new(&ball, StandardLagrange, scheme)

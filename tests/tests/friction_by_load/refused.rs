@@ -2,11 +2,11 @@
 
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::run::Plane;
+use holonom::run::{Beside, Plane};
 
 use super::Incline;
 
-fn fault<M: Mechanism>(mechanism: &M, interaction: Interaction<f64, M>) -> Fault {
+fn fault<M: Beside<1, 1>>(mechanism: &M, interaction: Interaction<f64, M>) -> Fault {
     let run = Simulation::new(mechanism, StandardLagrange, DormandPrince::default())
         .interactions([interaction])
         .run(0.0..=1.0, every(0.1), |_| ());

@@ -398,6 +398,9 @@ fn refusals() -> Result<(), Fault> {
         follow(&moving, way),
         Err(Fault::NotSteady { joint: "rail" })
     );
+    // Of a coordinate on whose position something depends no rate is steady.
+    let faster = follow(&start, Continuation::new(Varied::rate(h.rail)?, 2.0));
+    assert_eq!(faster, Err(Fault::NotSteady { joint: "rail" }));
     let found = follow(&afar, way);
     assert!(found == Ok(BranchEnd::Reached) || matches!(found, Err(Fault::NotConverged { .. })));
     // Unloaded springs hold at any stiffness.

@@ -1,4 +1,4 @@
-//! Limits in the description, for runs that heed them.
+//! Limits in the description, which runs heed.
 
 use core::f64::consts::{PI, TAU};
 
@@ -69,7 +69,6 @@ fn parameters_are_limits<C: Coordinates<Shaft>>() {
         let mut shown = 0;
         Simulation::new(&shaft, StandardLagrange, DormandPrince::new(tight()))
             .coordinates::<C>()
-            .limits()
             .run(0.0..=0.8, every(0.01), |sample| {
                 let (found, wanted) =
                     (sample.displacement(h.rail), bounced(sample.time(), numbers));
@@ -92,38 +91,121 @@ fn limits_of_the_description_are_interactions() {
     let (shaft, h) = (shaft(), Shaft::HANDLES);
     let simulation = || shaft.simulation(StandardLagrange, Rk4::every(0.003));
     let rail = Interaction::limits(h.rail.displacement(), [-0.5, 0.25]).restitution(0.8);
-    let run = |interactions| {
-        let mut simulation = simulation().interactions(interactions);
-        let report = simulation.run(0.0..=3.0, every(0.1), |_| ());
-        report.expect("it bounces")
-    };
-    let wanted = run([rail]);
+    let wanted = simulation()
+        .without_limits()
+        .interactions([rail])
+        .run(0.0..=3.0, every(0.1), |_| ())
+        .expect("it bounces");
     let found = simulation()
-        .limits()
         .run(0.0..=3.0, every(0.1), |_| ())
         .expect("it bounces");
     assert_eq!(found, wanted);
-    let [own] = shaft.limits();
-    let friction = Interaction::friction(h.rail.displacement(), 3.0);
-    let mut both = simulation().interactions([own, friction]);
-    let slower = both
-        .run(0.0..=3.0, every(0.1), |_| ())
-        .expect("it bounces and rubs");
-    assert_ne!(slower.state, wanted.state);
-    // Without the call nothing holds it.
-    let fallen = simulation()
-        .run(0.0..=3.0, every(0.1), |_| ())
-        .expect("it falls");
+    assert_ne!(
+        found.state,
+        simulation()
+            .interactions([])
+            .without_limits()
+            .run(0.0..=3.0, every(0.1), |_| ())
+            .expect("it falls")
+            .state
+    );
+    let fallen = simulation().without_limits();
+    let fallen = fallen.run(0.0..=3.0, every(0.1), |_| ()).expect("it falls");
     let view = shaft.view(3.0, &fallen.state).expect("acceptable");
     assert!(view.displacement(h.rail) < -30.0);
+}
+
+/// What a run is given stands before the limits of the description. Limits of the same quantity
+/// take their place, and everything may be said in any order.
+#[test]
+fn interactions_of_a_run_stand_beside_limits_of_the_description() {
+    let (shaft, h) = (shaft(), Shaft::HANDLES);
+    let simulation = || shaft.simulation(StandardLagrange, Rk4::every(0.003));
+    let rail = h.rail.displacement();
+    let friction = Interaction::friction(rail, 3.0);
+    let [own] = shaft.limits();
+    let end = |report: RunReport<f64, Shaft>| {
+        let view = shaft.view(report.time, &report.state).expect("acceptable");
+        (view.displacement(h.rail), view.displacement_rate(h.rail))
+    };
+    let (to, often) = (0.0..=2.0, every(0.1));
+    let beside = simulation().interactions([friction]);
+    let beside = beside.run(to.clone(), often, |sample| {
+        assert!(sample.impact(1).is_ok() && sample.impact(2).is_err());
+    });
+    let beside = end(beside.expect("it rubs and bounces"));
+    let listed = simulation().interactions([friction, own]);
+    let listed = listed.run(to.clone(), often, |sample| {
+        assert_eq!(sample.impact(2), Ok(None), "the list has taken its place");
+    });
+    assert_eq!(end(listed.expect("it rubs and bounces")), beside);
+    let alone = simulation().without_limits().interactions([friction, own]);
+    assert_eq!(
+        end(alone.run(to.clone(), often, |_| ()).expect("it bounces")),
+        beside
+    );
+    let mut late = simulation()
+        .on(
+            "top",
+            Crossing::Falling,
+            |s| s.displacement_rate(h.rail),
+            |_| (),
+        )
+        .interactions([friction, own])
+        .without_limits()
+        .initial_state(shaft.described_state().expect("described"));
+    let (found, rate) = end(late.run(to.clone(), often, |_| ()).expect("it bounces"));
+    assert!((found - beside.0).abs() < 1e-9 && (rate - beside.1).abs() < 1e-8);
+    // A run's own limits may be wider.
+    let wider = simulation().interactions([Interaction::limits(rail, [-2.0, 0.25])]);
+    let stops = wider.run_until(to, Crossing::Falling, |sample| {
+        sample.displacement(h.rail) + 1.9
+    });
+    assert!(stops.expect("it falls").stopped);
+}
+
+/// What does not heed them says so.
+#[test]
+fn what_does_not_heed_them_refuses() {
+    use holonom::lanes::Ensemble;
+    use holonom::sensitivity::SensitivityExt as _;
+    let left_out = |fault: Fault| {
+        let text = fault.to_string();
+        let is_told = matches!(fault, Fault::LimitsLeftOut { joint: "rail", .. });
+        assert!(is_told && text.contains("without_limits"), "{text}");
+    };
+    let (shaft, h) = (shaft(), Shaft::HANDLES);
+    let mut stepper =
+        Stepper::<f64, _, _, _>::new(&shaft, StandardLagrange, Rk4).expect("acceptable");
+    let mut state = stepper.initial_state().expect("described");
+    left_out(stepper.step_dense(&mut state, 0.01).expect_err("one"));
+    let mut free = stepper.without_limits();
+    assert!(free.step_dense(&mut state, 0.01).is_ok());
+    let ensemble = Ensemble::<f64, _, _, _, _, 1>::new(&[shaft], StandardLagrange, Rk4);
+    let mut ensemble = ensemble.expect("acceptable");
+    left_out(ensemble.step(0.01).expect_err("it has none"));
+    assert_eq!(ensemble.without_limits().step(0.01), Ok(()));
+    let shaft = self::shaft();
+    let along = shaft.sensitivities([h.height]).expect("acceptable");
+    let along = along.simulation(StandardLagrange, Rk4::every(0.01));
+    let run = along.run(0.0..=0.1, every(0.1), |_| ());
+    left_out(run.expect_err("it has none").fault);
+    let along = along.without_limits();
+    assert!(along.run(0.0..=0.1, every(0.1), |_| ()).is_ok());
+    let verified = shaft
+        .simulation(StandardLagrange, Rk4::every(0.01))
+        .verified();
+    let fault = verified.run(0.0..=0.1, every(0.1), |_| ());
+    assert_eq!(fault.expect_err("no companion").fault, Fault::NotVerified);
+    let verified = verified.without_limits();
+    assert!(verified.run(0.0..=0.1, every(0.1), |_| ()).is_ok());
 }
 
 #[test]
 fn a_stepper_heeds_them() {
     let (shaft, h) = (shaft(), Shaft::HANDLES);
-    let mut stepper = Stepper::<f64, _, _, _>::new(&shaft, StandardLagrange, Rk4)
-        .expect("acceptable")
-        .limits();
+    let mut stepper =
+        Stepper::<f64, _, _, _>::new(&shaft, StandardLagrange, Rk4).expect("acceptable");
     let mut state = stepper.initial_state().expect("it is described");
     for number in 1..=800_u32 {
         stepper.step(&mut state, 1e-3).expect("it bounces");
@@ -138,9 +220,7 @@ fn a_stepper_heeds_them() {
 fn what_a_run_refuses_is_named() {
     let beyond = Shaft::new(0.5, 1.0, 0.8).expect("finite");
     let run = |shaft: &Shaft| {
-        let mut limited = shaft
-            .simulation(StandardLagrange, Rk4::every(0.01))
-            .limits();
+        let limited = shaft.simulation(StandardLagrange, Rk4::every(0.01));
         let run = limited.run(0.0..=1.0, every(0.1), |_| ());
         run.expect_err("it is refused").fault
     };
@@ -189,7 +269,6 @@ fn a_screw_stops_by_its_angle<C: Coordinates<Nut>>() {
     let mut first = None;
     Simulation::new(&nut, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
-        .limits()
         .run(0.0..=4.0, every(0.05), |sample| {
             if let Some(impact) = sample.impact(0).expect("one") {
                 first.get_or_insert(impact);
@@ -232,7 +311,6 @@ fn elements_of_arrays_have_limits_of_their_own() {
     let mut least = [0.0_f64; 2];
     let report = chain
         .simulation(StandardLagrange, DormandPrince::default())
-        .limits()
         .run(0.0..=1.5, every(0.01), |sample| {
             for (least, hinge) in least.iter_mut().zip(h.hinges) {
                 *least = least.min(sample.angle(hinge));
@@ -277,7 +355,6 @@ fn parts_and_their_mirror_images_have_limits() {
     let h = Bird::HANDLES;
     let mut last = [0.0; 2];
     bird.simulation(StandardLagrange, DormandPrince::default())
-        .limits()
         .run(0.0..=2.0, every(0.1), |sample| {
             last = [h.left.hinge, h.right.hinge].map(|hinge| sample.angle(hinge));
             let modes = [0, 1].map(|number| sample.mode(number).expect("two"));
@@ -295,7 +372,7 @@ mod drawing {
 }
 
 #[derive(Mechanism)]
-#[mechanism(coordinates = "joints")]
+#[mechanism(coordinates = "joints", kernels = [mass, inverse])]
 struct Wheel {
     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.2], angular_velocity = [0.0, 0.0, -2.0])]
     wheel: Body,
@@ -311,7 +388,6 @@ fn limits_may_be_constants() {
     let (wheel, h) = (Wheel::default(), Wheel::HANDLES);
     wheel
         .simulation(StandardLagrange, DormandPrince::default())
-        .limits()
         .run(0.0..=20.0, every(0.1), |sample| {
             // To and fro at 2 rad/s.
             let (way, span) = (2.0 * sample.time(), PI + 0.25);
@@ -322,4 +398,26 @@ fn limits_may_be_constants() {
             assert!(off.abs() < 1e-9, "{found} {wanted}");
         })
         .expect("it turns");
+}
+
+/// Nothing acts on the wheel, so that it is in equilibrium wherever it is asked for.
+#[test]
+fn equilibria_beyond_a_limit_are_named() -> Result<(), Fault> {
+    let (wheel, h) = (Wheel::default(), Wheel::HANDLES);
+    let space = wheel.coordinates([h.hinge])?;
+    let [inside, beyond] = [space.state([0.2], [0.0])?, space.state([1.5], [0.0])?];
+    assert!(space.equilibrium(&inside).is_ok() && space.check_limits(&inside).is_ok());
+    let found = [
+        space.equilibrium(&beyond).err(),
+        space.check_limits(&beyond).err(),
+    ];
+    for fault in found {
+        let is_told = matches!(
+            fault,
+            Some(Fault::BeyondLimit { joint: "hinge", value, limit: 0.25 }) if (value - 1.5).abs() < 1e-12
+        );
+        assert!(is_told, "{fault:?}");
+    }
+    assert!(space.without_limits().equilibrium(&beyond).is_ok());
+    Ok(())
 }

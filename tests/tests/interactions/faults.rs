@@ -33,6 +33,10 @@ fn settings_are_checked_at_the_start() {
     refused(friction(f64::NAN), "capacity");
     refused(friction(2.0).stiction(1.0), "stiction");
     refused(friction(2.0).stiction(3.0).stribeck(0.0), "stribeck");
+    refused(friction(2.0).stribeck(1.0), "stribeck");
+    let told = fault(friction(-1.0)).to_string();
+    let wanted = "the capacity of the interaction on `rail` is -1: it is zero or more";
+    assert_eq!(told, wanted);
     let misplaced = fault(friction(1.0).restitution(0.5));
     let is_told = matches!(
         misplaced,
@@ -52,6 +56,17 @@ fn settings_are_checked_at_the_start() {
         }
     );
     assert!(is_told, "{beyond}");
+}
+
+#[test]
+fn breaks_are_finite() {
+    let ball = Ball::default();
+    let run = ball
+        .simulation(StandardLagrange, Rk4::every(0.1))
+        .breaks(&[0.5, f64::NAN])
+        .run(0.0..=1.0, every(0.1), |_| ());
+    let fault = run.expect_err("no instant").fault;
+    assert!(matches!(fault, Fault::BreakNotFinite { .. }), "{fault}");
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! Stops, a law that switches, a state of the user's own and a controller in one run.
 
-use holonom::measure::{Interacting, NoForces};
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::{DormandPrince853, RadauIIA, Runs};
@@ -35,16 +34,13 @@ struct Shuttle {
     breeze: Actuator,
 }
 
-type Forces = Interacting<f64, Shuttle, NoForces, 1>;
-
 /// At the end of 3.3 s: 0.05 m at 1 m/s up to 0.3 s, the upper stop at 0.8 s, the lower at 2.3 s.
-fn crossed<C: Coordinates<Shuttle>>(method: impl Runs<f64, Shuttle, StandardLagrange, C, Forces>) {
+fn crossed<C: Coordinates<Shuttle>>(method: impl Runs<f64, Shuttle, StandardLagrange, C>) {
     let (shuttle, h) = (Shuttle::default(), Shuttle::HANDLES);
     let mut calls = 0;
     let mut end = [0.0; 4];
     let run = Simulation::new(&shuttle, StandardLagrange, method)
         .coordinates::<C>()
-        .limits()
         .every_period(0.25, |_, inputs| {
             calls += 1;
             inputs.wind = 0.0;

@@ -5,9 +5,9 @@ use holonom::prelude::*;
 use holonom::{
     Heun, JointCoordinates, Kutta3, Midpoint, SemiImplicitEuler, StateParts,
     dynamics::Dynamics,
-    integrate::{OneStep, SecondOrder as _, System as _},
-    measure::NoForces,
+    integrate::{SecondOrder as _, System as _},
     mechanism::Relative,
+    run,
     state::{Array, MovingState, Vector},
 };
 use holonom_models::{
@@ -17,14 +17,14 @@ use holonom_models::{
 
 /// Methods that take steps of the rod in both coordinates.
 trait Steps:
-    OneStep<f64, Dynamics<f64, RodPendulum, StandardLagrange>>
-    + OneStep<f64, Dynamics<f64, RodPendulum, StandardLagrange, NoForces, Relative>>
+    run::Steps<f64, RodPendulum, StandardLagrange>
+    + run::Steps<f64, RodPendulum, StandardLagrange, Relative>
 {
 }
 
 impl<K> Steps for K where
-    K: OneStep<f64, Dynamics<f64, RodPendulum, StandardLagrange>>
-        + OneStep<f64, Dynamics<f64, RodPendulum, StandardLagrange, NoForces, Relative>>
+    K: run::Steps<f64, RodPendulum, StandardLagrange>
+        + run::Steps<f64, RodPendulum, StandardLagrange, Relative>
 {
 }
 

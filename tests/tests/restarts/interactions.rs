@@ -45,10 +45,13 @@ struct Mill {
 
 const INTERACTIONS: usize = 6;
 
+/// Those and the stops of the description, whose place the first of them takes.
+const ALL: usize = INTERACTIONS + 1;
+
 /// The end (s) of a short run.
 const SHORT: f64 = 0.3;
 
-type Forces = Interacting<f64, Mill, NoForces, INTERACTIONS>;
+type Forces = Interacting<f64, Mill, NoForces, ALL>;
 
 /// What an observer was shown of all interactions.
 type Told = [(InteractionMode, f64, Option<Impact<f64>>); INTERACTIONS];
@@ -277,7 +280,6 @@ fn runs_with_other_interactions_are_refused() {
     let simulation = || mill.simulation(StandardLagrange, method);
     let mut kept = None;
     simulation()
-        .limits()
         .checkpoints(10, |checkpoint| {
             kept = Some(checkpoint.clone());
             ControlFlow::Break(())
@@ -291,8 +293,8 @@ fn runs_with_other_interactions_are_refused() {
         assert_eq!(fault, wanted);
     };
     let [stops] = mill.limits();
-    assert!(simulation().limits().resume(&kept, |_| ()).is_ok());
-    refused(simulation().resume(&kept, |_| ()));
+    assert!(simulation().resume(&kept, |_| ()).is_ok());
+    refused(simulation().without_limits().resume(&kept, |_| ()));
     for other in [
         [stops.restitution(0.5)],
         [Interaction::limits(Mill::HANDLES.pin.angle(), [-0.6, 0.41]).restitution(0.6)],

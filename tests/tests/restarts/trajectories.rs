@@ -1,11 +1,9 @@
 //! Trajectories against what observers were shown, and against closed forms.
 
-use holonom::dynamics::Dynamics;
-use holonom::integrate::{DormandPrince5, DormandPrince8, FixedStep, OneStep};
-use holonom::measure::NoForces;
+use holonom::integrate::{DormandPrince5, DormandPrince8, FixedStep};
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::run::{Checkpoint, Trajectory};
+use holonom::run::{Checkpoint, Steps, Trajectory};
 use holonom::state::Vector as _;
 use holonom::{
     Adams, AdamsBashforthMoulton4, Bdf, DormandPrince853, GeneralizedAlpha, RadauIIA, Runs,
@@ -212,7 +210,7 @@ fn a_step_that_is_asked_within_is_what_observers_are_shown() {
     fn compared<K, C>(scheme: K, method: FixedStep<f64, K>)
     where
         C: Coordinates<Flap>,
-        K: OneStep<f64, Dynamics<f64, Flap, StandardLagrange, NoForces, C>>,
+        K: Steps<f64, Flap, StandardLagrange, C>,
         FixedStep<f64, K>: Runs<f64, Flap, StandardLagrange, C>,
     {
         let flap = flap();

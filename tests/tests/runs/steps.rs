@@ -1,11 +1,8 @@
 //! Single steps, for a loop of one's own, do what a run with a fixed step does.
 
 use holonom::prelude::*;
-use holonom::{
-    Fault, Runs,
-    dynamics::Dynamics,
-    integrate::{DormandPrince5, OneStep},
-};
+use holonom::run::Steps;
+use holonom::{Fault, Runs, integrate::DormandPrince5};
 use holonom_models::{DrivenSliderCrank, RodPendulum};
 
 use crate::flat::flat;
@@ -16,7 +13,7 @@ const STEP: f64 = 1.0 / 128.0;
 fn by_steps<F, K>(method: F, scheme: K) -> Vec<f64>
 where
     F: Formulation<f64>,
-    K: OneStep<f64, Dynamics<f64, RodPendulum, F>>,
+    K: Steps<f64, RodPendulum, F>,
 {
     let rod = RodPendulum::default();
     let mut stepper = Stepper::new(&rod, method, scheme).expect("acceptable");

@@ -17,8 +17,8 @@ pub(crate) fn limits(page: &mut Page, mechanism: &Mechanism) {
         return;
     }
     let text = "What the file says of its joints, in the order of the fields; of a slide m and N in the \
-                place of rad and N m. A run with `.limits()` holds joints within their positions; \
-                nothing holds rates and efforts.";
+                place of rad and N m. A run holds joints within their positions, unless it says \
+                `.without_limits()`; nothing holds rates and efforts.";
     page.comment(0, "///", text);
     page.line(0, ALLOW);
     page.line(0, &format!("impl {} {{", mechanism.name));

@@ -20,7 +20,6 @@ fn a_start_beyond_a_limit_is_refused_by_its_joint() {
     let panda = Panda::default();
     let run = panda
         .simulation(StandardLagrange, DormandPrince::default())
-        .limits()
         .run(0.0..=0.1, every(0.1), |_| ());
     let fault = run.expect_err("beyond").fault;
     let is_told = matches!(
@@ -41,7 +40,6 @@ fn a_falling_arm_stays_within_the_limits_of_its_file() -> Result<(), Box<dyn std
     let report = panda
         .simulation(StandardLagrange, DormandPrince::default())
         .initial_state(start(&panda)?)
-        .limits()
         .every_period(0.4, |sample, inputs| {
             let is_opened = (5.0 * sample.time() + 0.5).rem_euclid(4.0) < 1.0;
             inputs.panda_finger_joint1_force = if is_opened { 2.0 } else { -2.0 };

@@ -42,6 +42,9 @@ impl JointChecker<'_> {
         let mut bounds = None;
         if has_limits {
             bounds = self.bounds(joint, pairs, numbers, faults);
+        } else if !is_taken(BOUNDS) && unfit(joint).is_none() {
+            // It is among the keys that a joint takes.
+            pairs.optional(BOUNDS, faults);
         }
         numbers.no_inputs = None;
         Some(Limits {

@@ -7,7 +7,7 @@ use super::construction::of_mechanism;
 use super::coordinates;
 use super::documentation::documentation;
 use super::inputs::{Inputs, inputs_of, taken};
-use super::limits::limits;
+use super::limits;
 use super::parameters;
 use super::parts::Frame;
 use super::report::report;
@@ -77,7 +77,8 @@ impl Writer<'_> {
         let sides = switches::functions(model, facade);
         let parameters = parameters::parameters(model, facade);
         let construction = of_mechanism(model, facade);
-        let limits = limits(model, facade);
+        let beside = limits::beside(model, facade);
+        let limits = limits::members(model, facade);
         let vector_rows = &kernels.vector_rows;
         let joints = self.in_joint_coordinates();
         let default_coordinates = match model.coordinates {
@@ -115,6 +116,7 @@ impl Writer<'_> {
                     const REPORT: #facade::Report = #report;
                     const VECTOR_ROWS: &'static [usize] = &[#(#vector_rows),*];
 
+                    #limits
                     #parameters
                     #inputs
                     #likes
@@ -131,7 +133,7 @@ impl Writer<'_> {
                 #parts
 
                 #joints
-                #limits
+                #beside
 
                 #construction
             };

@@ -133,8 +133,7 @@ where
                 }
             }
             done = self.act(&mut hybrid, is_found || is_turned, last_good)?;
-            let is_switched = is_found && hybrid.is_switched;
-            if done.moved || is_switched || done.stops && self.log.unseen > 0 {
+            if done.moved || hybrid.is_switched || done.stops && self.log.unseen > 0 {
                 self.show(last_good.0, &last_good.1, companion);
             }
         }
@@ -264,7 +263,8 @@ where
             }
             if next != *state {
                 let duration = *end - time;
-                *state = self.checked(time, duration, next, *accepts_any_state)?;
+                let checked = self.checked(time, duration, next, *accepts_any_state);
+                *state = checked.map_err(|fault| after_handler(name, fault))?;
                 done.moved = true;
             }
             done.stops |= matches!(flow, ControlFlow::Break(()));
@@ -332,5 +332,23 @@ where
         }
         let rates = M::State::from_parts(rates, Array::zeros());
         (time + step, state.plus([(step, &rates)]))
+    }
+}
+
+/// The fault of a state as that of the handler which has set it.
+fn after_handler(event: &'static str, fault: Fault) -> Fault {
+    match fault {
+        Fault::InconsistentStart {
+            joint,
+            quantity,
+            violation,
+            ..
+        } => Fault::HandlerOpens {
+            event,
+            joint,
+            quantity,
+            violation,
+        },
+        fault => fault,
     }
 }

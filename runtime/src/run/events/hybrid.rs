@@ -8,12 +8,9 @@ use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
-use crate::measure::interacting::Interacting;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{InputsOf, Mechanism};
-use crate::nonsmooth::described::Limited;
-use crate::nonsmooth::interaction::Interaction;
 #[cfg(feature = "std")]
 use crate::run::checkpoint::{Checkpoint, keeper::Keeping};
 use crate::run::events::context::Event;
@@ -42,8 +39,8 @@ impl From<Infallible> for Fault {
 /// A simulation with events and controllers, by [`Simulation::on`] and
 /// [`Simulation::every_period`]. See [`guide::events`](mod@crate::guide::events).
 pub struct HybridSimulation<T, E> {
-    simulation: T,
-    happenings: E,
+    pub(super) simulation: T,
+    pub(super) happenings: E,
 }
 
 /// As the simulation.
@@ -57,10 +54,6 @@ impl<T: Debug, E> Debug for HybridSimulation<T, E> {
 
 /// A simulation in which something more happens.
 pub type With<T, E, H> = HybridSimulation<T, (E, H)>;
-
-/// A simulation with interactions.
-pub type WithInteractions<'a, S, M, F, I, A, C, const K: usize> =
-    HybridSimulation<Simulation<'a, S, M, F, I, Interacting<S, M, A, K>, C>, NothingHappens>;
 
 /// What a simulation computes with, and what it simulates.
 pub trait Simulated {
@@ -92,8 +85,7 @@ where
     I: Method<S>,
     C: Coordinates<M>,
 {
-    /// Calls a handler where a reading passes zero. Say it after everything else that is said of
-    /// the simulation.
+    /// Calls a handler where a reading passes zero.
     ///
     /// The time is located to some units in its last place, on the dense output of the method.
     /// Events of one step are handled in their order, those at one time in the order in which they
@@ -154,7 +146,7 @@ where
 
     /// Calls a controller at `t0 + k dt` (s), `t0` included and the end of the run not. The inputs
     /// that it sets are held until the next call, and the integration begins anew there. They begin
-    /// as those of the mechanism. Say it after everything else that is said of the simulation.
+    /// as those of the mechanism.
     ///
     /// The controller is called once for each instant, in their order, and may remember what it
     /// wants. A report at an instant comes before the call, but for the start.
@@ -203,8 +195,7 @@ where
     }
 
     /// Calls a closure with a [`Checkpoint`] after every so many steps, and at the end of the run,
-    /// so that a run that is stopped can go on: see [`Simulation::resume`]. Say it after everything
-    /// else that is said of the simulation.
+    /// so that a run that is stopped can go on: see [`Simulation::resume`].
     ///
     /// A closure that returns `ControlFlow::Break(())` stops the run, and nothing is lost. Where
     /// something else stops it, what came after the last checkpoint is computed again.
@@ -231,8 +222,7 @@ where
     }
 
     /// Records the motion, to be asked at any time when the run is over: see [`Trajectory`]. What
-    /// the trajectory knew is forgotten, but for a run that goes on from a checkpoint. Say it after
-    /// everything else that is said of the simulation.
+    /// the trajectory knew is forgotten, but for a run that goes on from a checkpoint.
     ///
     /// It takes 5 to 17 states a step, and 7 to 15 interpolations; with
     /// [`RadauIIA`](crate::RadauIIA) each of these is a step of its own.
@@ -296,90 +286,6 @@ where
             .without_events()
             .on("the end", crossing, reading, stop);
         { hybrid }.run(interval, reporting, |_| ())
-    }
-
-    /// Adds limits, dry friction, brakes and clutches, which handlers and observers call by their
-    /// place in the list. Say it after everything else that is said of the simulation, but before
-    /// events and controllers. See [`guide::contact`](mod@crate::guide::contact).
-    ///
-    /// ```
-    /// # use holonom::prelude::*;
-    /// # #[derive(Mechanism)]
-    /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
-    /// # struct Rod {
-    /// #     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
-    /// #     rod: Body,
-    /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    /// #     hinge: Revolute,
-    /// # }
-    /// let (rod, h) = (Rod::default(), Rod::HANDLES);
-    /// rod.simulation(StandardLagrange, DormandPrince::default())
-    ///     .interactions([
-    ///         Interaction::limits(h.hinge.angle(), [-1.0, 1.0]).restitution(0.4),
-    ///         Interaction::friction(h.hinge.angle(), 0.2),
-    ///     ])
-    ///     .run(0.0..=10.0, every(0.01), |sample| {
-    ///         assert!(sample.angle(h.hinge) > -1.0 - 1e-9);
-    ///     })?;
-    /// # Ok::<(), SimulationError<StateOf<Rod>>>(())
-    /// ```
-    ///
-    /// # Errors of the run
-    /// - [`Fault::InteractionSetting`] and [`Fault::MisplacedSetting`] of what is not acceptable.
-    /// - [`Fault::BeyondLimit`] of a start or a handler.
-    /// - [`Fault::NoMode`] and [`Fault::EndlessModes`] where no modes are found.
-    /// - [`Fault::NoUniqueFriction`] and [`Fault::LoadNotUnique`] of friction by load.
-    /// - [`Fault::StepTooShort`] where the turns of an angle with limits cannot be followed.
-    /// - [`Fault::NoInteractions`] with [`GeneralizedAlpha`](crate::GeneralizedAlpha).
-    /// - [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
-    #[must_use]
-    pub fn interactions<const K: usize>(
-        self,
-        interactions: [Interaction<S, M>; K],
-    ) -> WithInteractions<'a, S, M, F, I, A, C, K> {
-        self.exchange(|forces| Interacting::new(forces, interactions))
-            .without_events()
-    }
-
-    /// Heeds the limits of the description, `#[joint(.., limits = [-1.0, 1.0])]`: they are its
-    /// [`Simulation::interactions`], in the order of the fields. Without this call a run passes
-    /// them. Say it where `interactions` would be said; to have both, see [`Limited::limits`].
-    ///
-    /// ```
-    /// use holonom::prelude::*;
-    ///
-    /// /// A rod of 1 m, released from the horizontal.
-    /// #[derive(Mechanism)]
-    /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
-    /// struct Rod {
-    ///     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
-    ///     rod: Body,
-    ///     #[joint(
-    ///         between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0],
-    ///         limits = [-1.0, 1.0], restitution = 0.4
-    ///     )]
-    ///     hinge: Revolute,
-    /// }
-    ///
-    /// let rod = Rod::default();
-    /// rod.simulation(StandardLagrange, DormandPrince::default())
-    ///     .limits()
-    ///     .run(0.0..=10.0, every(0.01), |sample| {
-    ///         assert!(sample.angle(Rod::HANDLES.hinge) > -1.0 - 1e-9);
-    ///     })?;
-    /// # Ok::<(), SimulationError<StateOf<Rod>>>(())
-    /// ```
-    ///
-    /// # Errors of the run
-    /// Those of [`Simulation::interactions`], of a start beyond a limit
-    /// [`Fault::BeyondLimit`].
-    #[must_use]
-    pub fn limits<const K: usize>(self) -> WithInteractions<'a, S, M, F, I, A, C, K>
-    where
-        M: Limited<K>,
-    {
-        let limits = M::limits_of(&self.given());
-        self.interactions(limits)
     }
 
     fn without_events(self) -> HybridSimulation<Self, NothingHappens> {

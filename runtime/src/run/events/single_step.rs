@@ -1,9 +1,7 @@
 //! The first event within a step of a [`Stepper`].
 
-use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::OneStep;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::measure::view::View;
@@ -11,7 +9,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::run::events::root::locate;
 use crate::run::events::watch::{Crossing, Watch, looks};
-use crate::run::stepper::Stepper;
+use crate::run::stepper::{Stepper, Steps};
 
 /// The part of a step after which the motion says on which side of zero a reading is.
 const FIRST_LOOK: f64 = 1.0 / 1_048_576.0;
@@ -24,7 +22,7 @@ where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    K: OneStep<S, Dynamics<S, M, F, A, C>>,
+    K: Steps<S, M, F, C, A>,
     A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
@@ -68,8 +66,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// As [`Stepper::step`], and [`Fault::EventNotANumber`] of a reading. State and time are then
-    /// as before.
+    /// As [`Stepper::step_dense`], and [`Fault::EventNotANumber`] of a reading. State and time are
+    /// then as before.
     pub fn step_until(
         &mut self,
         state: &mut C::State<S>,

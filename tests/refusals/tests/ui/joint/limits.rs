@@ -54,6 +54,10 @@ struct Stops {
     lively: Revolute,
     #[force(between = [ground, f], axis = [1.0, 0.0, 0.0], moment = 1.0, limits = [-1.0, 1.0])]
     motor: TorsionalActuator,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1])]
+    g: Body,
+    #[joint(between = [ground, g], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0], limit = [-1.0, 1.0])]
+    misspelt: Prismatic,
 }
 
 fn main() {}

@@ -1,4 +1,4 @@
-//! A run that is told to heed limits, of a mechanism that has none.
+//! Limits that are asked for, of a mechanism that has none.
 
 use holonom::prelude::*;
 
@@ -11,5 +11,5 @@ struct Loose {
 }
 
 fn main() {
-    let _ = Loose::default().simulation(StandardLagrange, DormandPrince::default()).limits();
+    let [_] = Loose::default().limits::<f64>();
 }

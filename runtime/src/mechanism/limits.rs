@@ -1,0 +1,65 @@
+//! The limits of joints that a description has, and arrays of as many things.
+
+/// The limits of one joint, as its description has them.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointLimits<S> {
+    /// The place of the joint in the report.
+    pub joint: usize,
+    /// Whether they are of its angle (rad), and not of its displacement (m).
+    pub is_angle: bool,
+    /// The lower one and the upper one.
+    pub bounds: [S; 2],
+    /// The rate after an impact over the one before it.
+    pub restitution: S,
+}
+
+/// Several things, as many as the type says: an array, or [`Nothing`].
+#[doc(hidden)]
+pub trait Several<T>: AsRef<[T]> + Clone {
+    /// How many.
+    const COUNT: usize;
+
+    /// Visits them as an array. [`Nothing`] has none to visit, so nothing is compiled for it.
+    fn visit<V: Visit<T>>(&self, visit: V) -> Option<V::Output>;
+}
+
+/// What is done with an array of any length.
+#[doc(hidden)]
+pub trait Visit<T> {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn visit<const K: usize>(self, all: &[T; K]) -> Self::Output;
+}
+
+/// No things.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Nothing;
+
+impl<T> AsRef<[T]> for Nothing {
+    #[inline(always)]
+    fn as_ref(&self) -> &[T] {
+        &[]
+    }
+}
+
+impl<T> Several<T> for Nothing {
+    const COUNT: usize = 0;
+
+    #[inline(always)]
+    fn visit<V: Visit<T>>(&self, _visit: V) -> Option<V::Output> {
+        None
+    }
+}
+
+impl<T: Clone, const K: usize> Several<T> for [T; K] {
+    const COUNT: usize = K;
+
+    #[inline(always)]
+    fn visit<V: Visit<T>>(&self, visit: V) -> Option<V::Output> {
+        Some(visit.visit(self))
+    }
+}

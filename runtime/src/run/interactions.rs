@@ -1,0 +1,113 @@
+//! What a user says of limits, dry friction, brakes and clutches in a run.
+
+use crate::formulation::Formulation;
+use crate::integrate::Method;
+use crate::math::scalar::Real;
+use crate::measure::interacting::{Interacting, Unlimited};
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::described::Beside;
+use crate::nonsmooth::interaction::Interaction;
+use crate::run::simulation::Simulation;
+
+/// A simulation with `K` interactions, the limits of the description among them.
+pub type WithInteractions<'a, S, M, F, I, A, C, const K: usize> =
+    Simulation<'a, S, M, F, I, Interacting<S, M, A, K>, C>;
+
+impl<'a, S, M, F, I, A, C> Simulation<'a, S, M, F, I, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Method<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// Adds limits, dry friction, brakes and clutches, which handlers and observers call by their
+    /// place in the list. See [`guide::contact`](mod@crate::guide::contact).
+    ///
+    /// The limits of the description, `#[joint(.., limits = [-1.0, 1.0])]`, are heeded without a
+    /// word: they stand behind this list, in the order of the fields. Where the list has limits of
+    /// the same quantity, those hold instead. It is said once.
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// # #[derive(Mechanism)]
+    /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// # struct Rod {
+    /// #     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+    /// #     rod: Body,
+    /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    /// #     hinge: Revolute,
+    /// # }
+    /// let (rod, h) = (Rod::default(), Rod::HANDLES);
+    /// rod.simulation(StandardLagrange, DormandPrince::default())
+    ///     .interactions([
+    ///         Interaction::limits(h.hinge.angle(), [-1.0, 1.0]).restitution(0.4),
+    ///         Interaction::friction(h.hinge.angle(), 0.2),
+    ///     ])
+    ///     .run(0.0..=10.0, every(0.01), |sample| {
+    ///         assert!(sample.angle(h.hinge) > -1.0 - 1e-9);
+    ///     })?;
+    /// # Ok::<(), SimulationError<StateOf<Rod>>>(())
+    /// ```
+    ///
+    /// # Errors of the run
+    /// - [`Fault::InteractionSetting`](crate::Fault::InteractionSetting) and
+    ///   [`Fault::MisplacedSetting`](crate::Fault::MisplacedSetting) of what is not acceptable.
+    /// - [`Fault::BeyondLimit`](crate::Fault::BeyondLimit) of a start, a handler or a driver.
+    /// - [`Fault::NoMode`](crate::Fault::NoMode) and
+    ///   [`Fault::EndlessModes`](crate::Fault::EndlessModes) where no modes are found.
+    /// - [`Fault::NoUniqueFriction`](crate::Fault::NoUniqueFriction) and
+    ///   [`Fault::LoadNotUnique`](crate::Fault::LoadNotUnique) of friction by load.
+    /// - [`Fault::StepTooShort`](crate::Fault::StepTooShort) where the turns of an angle with
+    ///   limits cannot be followed.
+    /// - [`Fault::NoInteractions`](crate::Fault::NoInteractions) with
+    ///   [`GeneralizedAlpha`](crate::GeneralizedAlpha).
+    /// - [`Fault::NotVerified`](crate::Fault::NotVerified) of a run that is to be
+    ///   [`Simulation::verified`].
+    #[must_use]
+    pub fn interactions<const K: usize, const ALL: usize>(
+        self,
+        interactions: [Interaction<S, M>; K],
+    ) -> WithInteractions<'a, S, M, F, I, A, C, ALL>
+    where
+        M: Beside<K, ALL>,
+    {
+        const { assert!(!A::INTERACTS, "`interactions` are said once, in one list") };
+        self.exchange(|forces| Interacting::new(forces, M::beside(interactions)))
+    }
+
+    /// Passes the limits of the description, `#[joint(.., limits = [-1.0, 1.0])]`, as if there were
+    /// none. Those of [`Simulation::interactions`] hold.
+    ///
+    /// ```
+    /// use holonom::prelude::*;
+    ///
+    /// /// A rod of 1 m, released from the horizontal.
+    /// #[derive(Mechanism)]
+    /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// struct Rod {
+    ///     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+    ///     rod: Body,
+    ///     #[joint(
+    ///         between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0],
+    ///         limits = [-1.0, 1.0], restitution = 0.4
+    ///     )]
+    ///     hinge: Revolute,
+    /// }
+    ///
+    /// let (rod, h) = (Rod::default(), Rod::HANDLES);
+    /// let simulation = rod.simulation(StandardLagrange, DormandPrince::default());
+    /// let lowest = |report: &RunReport<f64, Rod>| rod.view(1.0, &report.state).map(|v| v.angle(h.hinge));
+    /// let stopped = simulation.clone().run(0.0..=0.7, every(0.1), |_| ())?;
+    /// let free = simulation.without_limits().run(0.0..=0.7, every(0.1), |_| ())?;
+    /// assert!(lowest(&stopped)? > -1.0 - 1e-9 && lowest(&free)? < -1.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn without_limits(self) -> Simulation<'a, S, M, F, I, Unlimited<A>, C> {
+        self.exchange(Unlimited)
+    }
+}
