@@ -107,7 +107,9 @@ trait Turned: Vector<f64> {
     fn turned<const POWERS: usize>(&self, factor: f64, rates: &Self) -> Self;
 }
 
-impl<const T: usize, const Q: usize, const U: usize> Turned for JointState<f64, T, Q, U> {
+impl<const T: usize, const Q: usize, const U: usize, const A: usize> Turned
+    for JointState<f64, T, Q, U, A>
+{
     #[inline(always)]
     fn turned<const POWERS: usize>(&self, factor: f64, rates: &Self) -> Self {
         let mut next = plus(self, factor, rates);

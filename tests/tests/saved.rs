@@ -230,8 +230,8 @@ fn what_does_not_fit_is_refused_by_name() -> Result<(), Box<dyn std::error::Erro
         "`Workshop` has no body `bolt`",
     );
     says(
-        &|value| value["unwrapped_angles"]["bearing"] = json!([0.0]),
-        "`Workshop` has no joint or force that counts turns `bearing`",
+        &|value| value["unwrapped_angles"]["axle"] = json!([0.0]),
+        "`Workshop` has no joint or force that counts turns `axle`",
     );
     says(
         &|value| value["unwrapped_angles"]["screw"] = json!([0.0, 1.0]),

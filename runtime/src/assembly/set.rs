@@ -10,6 +10,7 @@ use crate::math::vec3::norm;
 use crate::math::vec3::{minus, over, read, times, write};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
+use crate::mechanism::turns;
 use crate::state::vector::{Array, StateParts};
 
 /// A violation, in sizes of its row, that opens a joint: setting an angle opens none of the tree.
@@ -233,13 +234,13 @@ fn counted<S: Real, M: Mechanism>(
     let forces = M::REPORT.forces.iter();
     let forces = forces.map(|info| (info.bodies, info.auxiliary, info.auxiliaries));
     let mut counters = joints.chain(forces);
-    let (_, place, _) = counters.find(|(bodies, _, count)| *count == 1 && is_pair(bodies))?;
+    let counter = counters.find(|(bodies, _, count)| *count == 1 && is_pair(bodies));
     let angle = norm(turn);
     if angle <= S::zero() {
         return None;
     }
     let axis = over(turn, angle);
-    // What the counter gains as the body turns about the axis.
+    // What is counted as the body turns about the axis.
     let mut turning = *from;
     *turning.velocities_mut() = Array::zeros();
     let info = M::REPORT.bodies.get(body)?;
@@ -250,13 +251,27 @@ fn counted<S: Real, M: Mechanism>(
         info.velocity + 3,
         own,
     );
-    let rates = M::coordinate_rates(constants, &turning);
-    let [rate] = read(rates.as_slice(), place);
+    let (rate, whole) = match counter {
+        Some((_, place, _)) => {
+            let rates = M::coordinate_rates(constants, &turning);
+            let [rate] = read(rates.as_slice(), place);
+            let counter =
+                |state: &M::State<S>| read::<S, 1>(state.coordinates().as_slice(), place)[0];
+            (rate, counter(given) - counter(from))
+        }
+        // The account of the joint that carries it.
+        None => {
+            let joint = M::REPORT.carriers.get(body)?.joint?;
+            turns::place_of::<M>(joint)?;
+            let rate = M::joint_angle(constants, &turning, joint).rate;
+            let angle = |state| turns::angle::<S, M>(constants, state, joint);
+            (rate, angle(given) - angle(from))
+        }
+    };
     if (rate.abs() - S::one()).abs() > S::constant(ALIKE) {
         return None;
     }
-    let counter = |state: &M::State<S>| read::<S, 1>(state.coordinates().as_slice(), place)[0];
-    let whole = (counter(given) - counter(from)) * rate;
+    let whole = whole * rate;
     let turns = ((whole - angle) * S::constant(TAU.recip())).round();
     let whole = turns.fused(S::constant(TAU), angle);
     Some(times(&axis, whole))

@@ -9,29 +9,20 @@ use crate::math::quaternion::{conjugate, normalised, product};
 use crate::math::scalar::Real;
 use crate::math::vec3::square;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::turns;
 use crate::state::vector::{Array, StateParts, Vector};
 
 impl<S: Real, M: Mechanism> Subtree<'_, S, M> {
     /// Sets the angle (rad).
     pub(crate) fn set_angle(mut self, angle: S) -> Result<M::State<S>, Fault> {
         let axis = self.axis()?;
-        let parts = M::joint_angle(self.constants, &self.state, self.joint);
-        let mut now = parts.angle();
-        let mut change = angle - now;
-        if parts.turns.is_none() {
-            match self.turns(&axis) {
-                Some(counted) => {
-                    now = counted(now);
-                    change = angle - now;
-                }
-                // No element counts them: the nearest way.
-                None => {
-                    let turns = (change * S::constant(TAU.recip())).round();
-                    change = change - turns * S::constant(TAU);
-                }
-            }
+        let mut now = turns::angle::<S, M>(self.constants, &self.state, self.joint);
+        // What an element of the same bodies counts has an effect.
+        if let Some(counted) = self.turns(&axis) {
+            now = counted(now);
         }
-        self.displace(&axis, change);
+        self.displace(&axis, angle - now);
+        turns::set::<S, M, _>(&mut self.state, self.joint, angle);
         self.finite()
     }
 

@@ -8,6 +8,7 @@ use crate::math::vec3::{cross, minus, read, write};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::report::{BodyKind, Carrier, JointInfo};
+use crate::mechanism::turns;
 use crate::state::vector::{Array, StateParts};
 
 /// The velocities of what hangs on a joint, which moves as one body against what carries it: global
@@ -187,6 +188,14 @@ impl<'a, S: Real, M: Mechanism> Subtree<'a, S, M> {
             }
         }
         M::rewrap(self.constants, &mut state);
+        // Over many turns, as they would be seen in the motion.
+        let [mut from, mut to] = [self.state, state];
+        for moving in [&mut from, &mut to] {
+            *moving.velocities_mut() = Array::zeros();
+            self.add_to(moving, twist);
+        }
+        turns::count::<S, M>(self.constants, &from, factor, &mut to);
+        turns::copy(&to, &mut state);
         self.state = state;
     }
 }

@@ -17,6 +17,7 @@ use crate::math::scalar::Real;
 use crate::math::vec3::{cross, minus, over, read, write};
 use crate::mechanism::kernels::{Compliant, Mechanism, Pivot, Plain, Stabilisation};
 use crate::mechanism::report::BodyKind;
+use crate::mechanism::turns;
 use crate::monitor::Passage;
 use crate::state::vector::{Array, StateParts};
 
@@ -248,6 +249,7 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
             }
             state = displaced::<S, M>(self.constants, &state, &step, S::one());
             if is_small {
+                turns::count::<S, M>(self.constants, &self.state, S::zero(), &mut state);
                 return Some((state, motion));
             }
             last = size;

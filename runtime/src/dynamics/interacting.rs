@@ -34,17 +34,6 @@ where
         Ok(())
     }
 
-    /// Whether the turns of all angles with limits are known from the last look to this one.
-    pub(crate) fn follows_turns(&self, time: S, bodies: &M::State<S>) -> bool {
-        let scene = Scene::<S, M> {
-            constants: self.constants(),
-            time,
-            bodies,
-        };
-        let look = |all, tracked: &Tracked<S, M>| tracked.look_ahead(&scene) && all;
-        self.tracked().iter().fold(true, look)
-    }
-
     /// The reading of the condition under which the mode of an interaction ends, after a look.
     pub(crate) fn reading_of_mode(
         &self,

@@ -50,6 +50,7 @@ use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
 use crate::mechanism::orientations::{check_state, with_unit_orientations};
 use crate::mechanism::switch::Switch;
+use crate::mechanism::turns;
 use crate::monitor::Seen;
 use crate::state::vector::{Array as _, StateParts, Vector};
 
@@ -395,7 +396,31 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     /// signs as far as they can.
     #[inline(always)]
     pub(crate) fn bodies_near(&self, state: &C::State<S>, near: &M::State<S>) -> M::State<S> {
-        C::bodies_near(self.own_constants(), state, near)
+        let mut bodies = C::bodies_near(self.own_constants(), state, near);
+        turns::copy(near, &mut bodies);
+        bodies
+    }
+
+    /// The same where they stood there some time (s) ago, with their angles counted on. Whether the
+    /// turns are known.
+    #[inline]
+    pub(crate) fn bodies_after(
+        &self,
+        state: &C::State<S>,
+        (time, near): (S, &M::State<S>),
+    ) -> (M::State<S>, bool) {
+        let mut bodies = C::bodies_near(self.own_constants(), state, near);
+        let is_known = turns::follow::<S, M>(self.constants(), near, time, &mut bodies);
+        (bodies, is_known)
+    }
+
+    /// Counts all angles of a state that was reached from another one in some time (s).
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn count_turns(&self, from: &C::State<S>, time: S, to: &mut C::State<S>) {
+        let [from, mut bodies] = [from, to].map(|state| self.bodies(state));
+        turns::count::<S, M>(self.constants(), &from, time, &mut bodies);
+        turns::copy(&bodies, to);
     }
 
     /// The state in which bodies stand and move so, or nearly so.

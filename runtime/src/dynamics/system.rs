@@ -8,6 +8,7 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::turns;
 use crate::state::vector::{Array, MovingState, Vector};
 
 impl<S, M, F, A, C> System<S> for Dynamics<S, M, F, A, C>
@@ -84,6 +85,13 @@ where
         by_differences(state, rates, columns, |state, rates| {
             self.stage(time, state, rates)
         })
+    }
+
+    #[inline]
+    fn follow(&mut self, from: &C::State<S>, step: S, to: &mut C::State<S>) {
+        if turns::carry(from, step, to) > S::constant(turns::FAR) {
+            self.count_turns(from, step, to);
+        }
     }
 
     #[inline]

@@ -41,6 +41,10 @@ pub(crate) fn by_forward_numbers<S: Real, X: Vector<S>, Y: Vector<Lifted<S>>>(
     for index in 0..length {
         here.set_element(index, Forward::fixed(state.element(index)));
     }
+    let counted = here.turns_mut().iter_mut();
+    for (place, &number) in counted.zip(state.turns()) {
+        *place = Forward::fixed(number);
+    }
     let mut rates = zeros.clone();
     let mut direction = zeros;
     let (mut next, mut whole) = (0, 0);

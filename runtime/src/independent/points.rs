@@ -141,6 +141,10 @@ pub(super) fn moved<M: JointRates, S: Scalar, const K: usize>(
     for place in 2 * pairs.len()..state.length() {
         here.set_element(place, Forward::new(state.element(place), slopes(place)));
     }
+    let counted = here.turns_mut().iter_mut();
+    for (place, &number) in counted.zip(state.turns()) {
+        *place = Forward::fixed(number);
+    }
     here
 }
 

@@ -13,7 +13,8 @@ use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_kernels::{Freedom, JointMotion};
 use crate::mechanism::joint_rates::JointRates;
-use crate::mechanism::relative::{bodies_of, rates_of_motion};
+use crate::mechanism::relative::{bodies_of, joint_state_of, rates_of_motion};
+use crate::mechanism::turns;
 use crate::state::vector::{Array, MovingState, Vector as _};
 
 /// What an angle is turned at once while loops are closed (rad).
@@ -24,8 +25,9 @@ const MANY: f64 = 1e5;
 const CORRECTIONS: usize = 25;
 
 impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
-    /// The coordinates (rad, m) at a state, zero in the reference configuration: an angle is from
-    /// `-pi` to `pi`, that of a screw counts turns.
+    /// The coordinates (rad, m) at a state, zero in the reference configuration: the angle of a
+    /// joint over all turns that the state has counted, as [`View::angle`](crate::View::angle) reads
+    /// it. An angle of a joint that has several, such as a universal joint, is from `-pi` to `pi`.
     ///
     /// # Errors
     /// [`Fault::NoPosition`] for a chosen component of an angular velocity, which is the rate of no
@@ -40,9 +42,12 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         for (position, &place) in positions.iter_mut().zip(&self.equations.places) {
             let (number, motion) = motion_at::<M>(place)?;
             let joint = motion.mover();
-            *position = M::JOINT_REPORT
-                .coordinate(number, state)
-                .ok_or(Fault::NoPosition { joint })?;
+            let coordinate = M::JOINT_REPORT.coordinate(number, state);
+            let coordinate = coordinate.ok_or(Fault::NoPosition { joint })?;
+            *position = match place_of::<M>(motion).and_then(|place| state.turns().get(place)) {
+                Some(&counted) => turns::nearest(coordinate, counted),
+                None => coordinate,
+            };
         }
         Ok(positions)
     }
@@ -110,6 +115,13 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
                 M::rewrap(&self.constants, &mut bodies);
                 state = self.of_bodies(&bodies);
             }
+            for ((begin, way), &place) in begin.iter().zip(&way).zip(&self.equations.places) {
+                let (_, motion) = motion_at::<M>(place)?;
+                let counted = place_of::<M>(motion);
+                if let Some(counted) = counted.and_then(|place| state.turns_mut().get_mut(place)) {
+                    *counted = *begin + *way;
+                }
+            }
             return self.with_rates(&state, rates);
         }
         // In steps, so that what is geared to a coordinate is taken along over any number of turns.
@@ -126,7 +138,11 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             let share = S::constant(f64::from(step) / f64::from(steps));
             let wanted = SVector::from_fn(|row, _| way[row].fused(share, begin[row]));
             let wanted = if step == steps { positions } else { wanted };
-            state = self.stepped(&state, &wanted)?;
+            let next = self.stepped(&state, &wanted)?;
+            let [before, mut bodies] = [&state, &next].map(|state| self.bodies(state));
+            turns::count::<S, M>(&self.constants, &before, S::zero(), &mut bodies);
+            state = next;
+            turns::copy(&bodies, &mut state);
         }
         self.with_rates(&state, rates)
     }
@@ -265,8 +281,17 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// The state in which bodies stand and move so.
     #[must_use]
     pub fn of_bodies(&self, bodies: &M::State<S>) -> M::JointState<S> {
-        M::joint_state(&self.equations.constants, bodies)
+        joint_state_of::<S, M>(&self.equations.constants, bodies)
     }
+}
+
+/// The place in the account of angles of what a joint turns by.
+fn place_of<M: JointRates>(motion: &JointMotion) -> Option<usize> {
+    if !matches!(motion.freedom, Freedom::Turn { .. }) {
+        return None;
+    }
+    let mut joints = M::REPORT.joints.iter();
+    turns::place_of::<M>(joints.position(|joint| joint.name == motion.joint)?)
 }
 
 /// Numbers that a state may hold.

@@ -179,6 +179,7 @@ impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsFixedIntegration<S, Y::State>
             Ok(state) if state.is_finite() => state,
             outcome => return Err(self.refused(system, step, outcome.err())),
         };
+        system.follow(&self.reached.state, step, &mut state);
         system.renormalise(&mut state, None);
         let [third, fourth] = &mut self.before;
         swap(third, fourth);

@@ -270,6 +270,7 @@ where
             auxiliary: &self.auxiliary,
         })?;
         reached.counts.evaluations += end.evaluations;
+        system.follow(&reached.state, step, &mut end.state);
         system.renormalise(&mut end.state, Some(&mut end.slope));
         self.last.first = replace(&mut reached.slope, end.slope);
         self.auxiliary = end.auxiliary;

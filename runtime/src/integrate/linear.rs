@@ -243,7 +243,7 @@ mod tests {
 
     use super::{Complex, ComplexColumn, Factors};
     use crate::state::each::EachOfState;
-    use crate::state::vector::{State, StateParts, Vector};
+    use crate::state::vector::{State, Vector};
 
     /// Numbers without a pattern.
     fn scattered(seed: u64) -> impl FnMut() -> f64 {

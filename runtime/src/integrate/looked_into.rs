@@ -56,6 +56,7 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> StepWithin<S, X, K> {
         if !to.is_finite() {
             return Err(None);
         }
+        system.follow(from, step, &mut to);
         system.renormalise(&mut to, None);
         let mut last = to.clone();
         system.stage(time + step, &to, &mut last)?;

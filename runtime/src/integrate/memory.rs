@@ -93,12 +93,15 @@ impl<S: Real> Memory<'_, S> {
         }
     }
 
-    /// A state or a slope, element by element.
+    /// A state or a slope, element by element, with what it has counted.
     pub fn vector<X: Vector<S>>(&mut self, vector: &mut X) {
         *vector = vector.zip(vector, |mut element, _| {
             self.number(&mut element);
             element
         });
+        for counted in vector.turns_mut() {
+            self.number(counted);
+        }
     }
 }
 

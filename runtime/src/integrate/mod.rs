@@ -197,6 +197,11 @@ pub trait System<S: Scalar> {
         })
     }
 
+    /// Counts on in a state that a step (s) has led to from another one what states count beside
+    /// their elements, see [`Vector::turns`].
+    #[inline(always)]
+    fn follow(&mut self, _from: &Self::State, _step: S, _to: &mut Self::State) {}
+
     /// Brings a state that a step has led to into its normal form, and its rates, where they are
     /// known, with it.
     ///
@@ -535,10 +540,11 @@ fn attempt<S: Real, K: OneStep<S, Y>, Y: System<S>>(
         slope: &slope,
     };
     let unlooked = &mut Slopes::new(system);
-    let next = scheme.advanced(unlooked, start, step, &mut scheme.stages(&slope))?;
+    let mut next = scheme.advanced(unlooked, start, step, &mut scheme.stages(&slope))?;
     if !next.is_finite() {
         return Err(None);
     }
+    system.follow(state, step, &mut next);
     *state = next;
     system.renormalise(state, None);
     Ok(())

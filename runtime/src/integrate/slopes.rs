@@ -196,6 +196,11 @@ impl<S: Scalar, Y: System<S>, L: Look<S, Y::State>> System<S> for Slopes<'_, Y, 
     }
 
     #[inline(always)]
+    fn follow(&mut self, from: &Y::State, step: S, to: &mut Y::State) {
+        self.system.follow(from, step, to);
+    }
+
+    #[inline(always)]
     fn renormalise(&mut self, state: &mut Y::State, rates: Option<&mut Y::State>) {
         self.system.renormalise(state, rates);
     }

@@ -27,6 +27,10 @@ pub(super) fn put_state<T: Real, X: MovingState<T>, Y: MovingState<Lanes<T, L>>,
         place.set_lane(lane, state.element(index));
         all.set_element(index, place);
     }
+    let counted = all.turns_mut().iter_mut();
+    for (place, &number) in counted.zip(state.turns()) {
+        place.set_lane(lane, number);
+    }
 }
 
 /// The state of a lane; zeros where there is no such lane.
@@ -38,6 +42,9 @@ pub(super) fn state_of<T: Real, X: MovingState<T>, Y: MovingState<Lanes<T, L>>, 
     for index in 0..state.length() {
         let number = all.element(index).lane(lane);
         state.set_element(index, number.unwrap_or(T::zero()));
+    }
+    for (place, number) in state.turns_mut().iter_mut().zip(all.turns()) {
+        *place = number.lane(lane).unwrap_or(T::zero());
     }
     state
 }

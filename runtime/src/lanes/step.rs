@@ -8,11 +8,12 @@ use crate::dynamics::Dynamics;
 use crate::error::{Fault, SimulationError, Unheeding};
 use crate::formulation::Formulation;
 use crate::integrate::{OneStep, Slopes, StepStart, System};
-use crate::math::scalar::Real;
+use crate::math::scalar::{Real, Scalar as _};
 use crate::measure::load::NoForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::described::refuse_limits;
+use crate::mechanism::turns;
 use crate::run::stepper::end_of_step;
 
 impl<T, M, F, K, C, const L: usize> Ensemble<T, M, F, K, C, L>
@@ -46,14 +47,31 @@ where
         } else {
             None
         };
+        let before = self.state;
         match normalised {
             Some(next) => self.state = next,
             None => self.apart(next, dt),
+        }
+        let turned = turns::carry(&before, Lanes::splat(dt), &mut self.state);
+        if !Lanes::are_within(&[turned], turns::FAR) {
+            self.count(&before, dt);
         }
         if self.going > 0 {
             self.clock = clock;
         }
         Ok(())
+    }
+
+    /// Counts the turns of angles, lane by lane.
+    #[cold]
+    #[inline(never)]
+    fn count(&mut self, before: &C::State<Lanes<T, L>>, dt: T) {
+        for (lane, dynamics) in self.dynamics.iter().enumerate() {
+            let from: C::State<T> = state_of(before, lane);
+            let mut to: C::State<T> = state_of(&self.state, lane);
+            dynamics.count_turns(&from, dt, &mut to);
+            put_state(&mut self.state, lane, &to);
+        }
     }
 
     /// The end of a step in all lanes, as it comes out.

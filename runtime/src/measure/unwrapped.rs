@@ -1,15 +1,15 @@
 //! The angle of a joint over many turns, followed from one reading to the next.
 
-use core::f64::consts::TAU;
-
 use crate::math::scalar::Scalar;
 use crate::measure::view::View;
 use crate::mechanism::handle::{HasAngle, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::readout::AngleParts;
+use crate::mechanism::turns::nearest;
 
-/// Follows the angle of a joint over turns, from reading to reading: where [`View::angle`] jumps
-/// from `pi` to `-pi`, this goes on.
+/// Follows the angle of a joint over turns, from reading to reading, in states of which nothing was
+/// counted: those that a program of your own moves. In runs and steppers [`View::angle`] goes on by
+/// itself.
 ///
 /// The whole turns are those that bring the angle nearest to the last one plus the mean of both
 /// rates times the time between. So a joint may turn many times between two readings, as long as
@@ -69,18 +69,21 @@ impl<S: Scalar> UnwrappedAngle<S> {
         view: &View<'_, S, M>,
         joint: JointHandle<M, J>,
     ) -> S {
-        self.follow(view.time(), &view.angle_parts(joint.index()))
+        let parts = view.angle_parts(joint.index());
+        self.follow(view.time(), view.angle(joint), &parts)
     }
 
-    /// The same from the parts of an angle at a time (s).
-    pub(crate) fn follow(&mut self, time: S, parts: &AngleParts<S>) -> S {
-        let (mut angle, rate) = (parts.angle(), parts.rate);
-        if let (Some(last), None) = (self.last, parts.turns) {
-            let mean = S::constant(0.5) * (last.rate + rate);
-            let expected = mean.fused(time - last.time, last.angle);
-            let turns = ((expected - angle) * S::constant(TAU.recip())).round();
-            angle = turns.fused(S::constant(TAU), angle);
-        }
+    /// The same from the parts of an angle at a time (s), and the angle that a state has counted.
+    pub(crate) fn follow(&mut self, time: S, counted: S, parts: &AngleParts<S>) -> S {
+        let (within, rate) = (parts.angle(), parts.rate);
+        let angle = match (self.last, parts.turns) {
+            (Some(last), None) => {
+                let mean = S::constant(0.5) * (last.rate + rate);
+                nearest(within, mean.fused(time - last.time, last.angle))
+            }
+            (None, None) => nearest(within, counted),
+            (_, Some(_)) => within,
+        };
         self.last = Some(Reading { time, angle, rate });
         angle
     }
@@ -107,7 +110,7 @@ mod tests {
             for step in 0..200 {
                 let time = interval * f64::from(step);
                 let (angle, rate) = (40.0 * (0.5 * time).sin(), 20.0 * (0.5 * time).cos());
-                let found = followed.follow(time, &parts(angle, rate, None));
+                let found = followed.follow(time, angle, &parts(angle, rate, None));
                 assert!((found - angle).abs() < 1e-12, "{found} for {angle}");
             }
         }
@@ -118,7 +121,7 @@ mod tests {
         let mut followed = UnwrappedAngle::default();
         for step in 0..20 {
             let time = f64::from(step);
-            let found = followed.follow(time, &parts(100.0 * time, 100.0, None));
+            let found = followed.follow(time, 0.0, &parts(100.0 * time, 100.0, None));
             assert!((found - 100.0 * time).abs() < 1e-10);
         }
     }
@@ -126,10 +129,14 @@ mod tests {
     #[test]
     fn a_counted_angle_is_as_it_is_and_one_of_nan_stays_one() {
         let mut followed = UnwrappedAngle::default();
-        assert_eq!(followed.follow(0.0, &parts(0.5, 0.0, None)), 0.5);
+        assert_eq!(followed.follow(0.0, 0.5, &parts(0.5, 0.0, None)), 0.5);
         let counted = parts(0.5, 0.0, Some(100.0));
-        assert_eq!(followed.follow(1.0, &counted), counted.angle());
-        assert!(followed.follow(2.0, &parts(f64::NAN, 0.0, None)).is_nan());
-        assert!(followed.follow(3.0, &parts(0.1, 0.0, None)).is_nan());
+        assert_eq!(followed.follow(1.0, 0.5, &counted), counted.angle());
+        assert!(
+            followed
+                .follow(2.0, 0.0, &parts(f64::NAN, 0.0, None))
+                .is_nan()
+        );
+        assert!(followed.follow(3.0, 0.0, &parts(0.1, 0.0, None)).is_nan());
     }
 }

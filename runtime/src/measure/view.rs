@@ -18,6 +18,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
 use crate::mechanism::report::MarkerKind;
+use crate::mechanism::turns;
 use crate::state::vector::Array;
 
 /// A state at a time, with everything that can be read from it by handle.
@@ -202,11 +203,21 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     }
 
     /// The angle of a joint (rad), zero in the configuration that the attributes describe, positive
-    /// as the second body turns about the joint's axis against the first: from `-pi` to `pi`, or
-    /// without bounds where the joint's definition counts turns.
+    /// as the second body turns about the joint's axis against the first.
+    ///
+    /// It goes on over any number of turns, and has no jump: the state counts them where a run or a
+    /// [`Stepper`](crate::Stepper) moves it. Setting an angle sets the count. In a state of which
+    /// nothing was counted, it is the angle nearest to the described configuration.
     #[must_use]
     pub fn angle<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S {
-        self.angle_parts(joint.index()).angle()
+        self.angle_of(joint.index())
+    }
+
+    /// The same from `-pi` to `pi`, where it jumps.
+    #[must_use]
+    pub fn wrapped_angle<J: HasAngle>(&self, joint: JointHandle<M, J>) -> S {
+        let parts = self.angle_parts(joint.index());
+        parts.sine.atan2(parts.cosine)
     }
 
     /// The rate of the angle of a joint (rad/s), with the sign of [`View::angle`].
@@ -402,6 +413,11 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
             }
         }
         square(rest.as_slice())
+    }
+
+    /// [`View::angle`] of a joint by its index.
+    pub(crate) fn angle_of(&self, joint: usize) -> S {
+        turns::angle::<S, M>(self.constants(), self.state, joint)
     }
 
     pub(crate) fn angle_parts(&self, joint: usize) -> AngleParts<S> {

@@ -151,12 +151,12 @@ pub trait JointParts<S: Scalar>: MovingState<S> {
     fn rest_slice_mut(&mut self) -> &mut [S];
 }
 
-impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> MovingState<S>
-    for JointState<S, TURNS, REST, RATES>
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const A: usize>
+    MovingState<S> for JointState<S, TURNS, REST, RATES, A>
 {
     #[inline(always)]
     fn zeros() -> Self {
-        Self::from_parts(
+        Self::of_parts(
             [[S::zero(); 2]; TURNS],
             [S::zero(); REST],
             [S::zero(); RATES],
@@ -174,8 +174,8 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Movin
     }
 }
 
-impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> JointParts<S>
-    for JointState<S, TURNS, REST, RATES>
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const A: usize>
+    JointParts<S> for JointState<S, TURNS, REST, RATES, A>
 {
     #[inline(always)]
     fn pairs_slice(&self) -> &[[S; 2]] {

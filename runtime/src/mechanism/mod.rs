@@ -22,6 +22,7 @@ pub(crate) mod relative;
 pub(crate) mod report;
 pub(crate) mod setpoint;
 pub(crate) mod switch;
+pub(crate) mod turns;
 
 pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,

@@ -11,6 +11,7 @@ use crate::mechanism::coordinates::{
 use crate::mechanism::joint_kernels::{JointCoordinates, JointParts};
 use crate::mechanism::kernels::{Normalised, Pivot, Stabilisation, Terms};
 use crate::mechanism::report::{BodyInfo, BodyKind};
+use crate::mechanism::turns;
 use crate::state::vector::{Array, MovingState, StateParts, Vector};
 
 impl<M: JointCoordinates> Coordinates<M> for Relative {
@@ -299,7 +300,7 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         constants: &M::JointConstants<S>,
         bodies: &M::State<S>,
     ) -> M::JointState<S> {
-        M::joint_state(constants, bodies)
+        joint_state_of::<S, M>(constants, bodies)
     }
 
     fn of_bodies_near<S: Real>(
@@ -307,7 +308,7 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         bodies: &M::State<S>,
         near: &M::JointState<S>,
     ) -> M::JointState<S> {
-        let mut state = M::joint_state(constants, bodies);
+        let mut state = joint_state_of::<S, M>(constants, bodies);
         for &place in M::JOINT_REPORT.euler_parameters {
             take_nearer_sign(state.rest_slice_mut(), near.rest_slice(), place);
         }
@@ -406,9 +407,20 @@ pub(crate) fn bodies_of<S: Real, M: JointCoordinates>(
     constants: &M::JointConstants<S>,
     state: &M::JointState<S>,
 ) -> M::State<S> {
-    bodies_by::<S, M>(&M::body_motions(constants, state), |_, rows| {
-        from_matrix(rows)
-    })
+    let motions = M::body_motions(constants, state);
+    let mut bodies = bodies_by::<S, M>(&motions, |_, rows| from_matrix(rows));
+    turns::copy(state, &mut bodies);
+    bodies
+}
+
+/// The joint coordinates of bodies, or nearly so, with the turns that these have counted.
+pub(crate) fn joint_state_of<S: Real, M: JointCoordinates>(
+    constants: &M::JointConstants<S>,
+    bodies: &M::State<S>,
+) -> M::JointState<S> {
+    let mut state = M::joint_state(constants, bodies);
+    turns::copy(bodies, &mut state);
+    state
 }
 
 /// The same of their motions; Euler parameters are made of a body's number and rotation.

@@ -8,7 +8,6 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors, Place};
 use crate::nonsmooth::capacities::Capacities;
 use crate::nonsmooth::columns::{Columns, Setting};
-use crate::nonsmooth::interaction::Law;
 use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{InteractionMode, Next, Tracked};
@@ -285,11 +284,6 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             status.mode = mode;
             (status.effort, status.share) = (effort, effort);
         });
-        if let Law::Limits(limits) = &self.interaction.law
-            && !self.interaction.is_dropped
-        {
-            self.begin_turning(self.value_now(limits, scene), scene);
-        }
         let reading = self.reading(scene);
         let round_off = S::constant(ROUND_OFF) * S::EPSILON;
         let floor = match mode {

@@ -5,7 +5,6 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::Several;
 use crate::nonsmooth::interaction::{Interaction, Law};
-use crate::nonsmooth::quantity::nearest;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::state::vector::Array as _;
@@ -93,8 +92,8 @@ pub trait Beside<const K: usize, const ALL: usize>: Mechanism {
 /// A joint at this part of the way between its limits beyond one of them is beyond it.
 const BEYOND: f64 = 1e-6;
 
-/// Refuses a state in which a joint is beyond a limit of the description. Of an angle that does not
-/// count turns the nearest turn counts.
+/// Refuses a state in which a joint is beyond a limit of the description. An angle is that of all
+/// turns which the state has counted.
 pub(crate) fn check_limits<S: Real, M: Mechanism>(
     parameters: &M::Parameters<S>,
     constants: &M::Constants<S>,
@@ -113,10 +112,7 @@ pub(crate) fn check_limits<S: Real, M: Mechanism>(
         };
         let [lower, upper] = limits.bounds;
         let way = upper - lower;
-        let mut value = quantity.value(&scene);
-        if quantity.wraps(&scene) {
-            value = nearest(value, S::constant(0.5).fused(way, lower));
-        }
+        let value = quantity.value(&scene);
         let beyond = S::constant(BEYOND) * way;
         let limit = if value < lower - beyond {
             lower

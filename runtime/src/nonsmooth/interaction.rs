@@ -175,9 +175,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// An impact has no restitution if none is given. Impulses act in the metric of the mass, on
     /// the whole mechanism, and all impacts of an instant are one problem.
     ///
-    /// The turns of an angle are counted, also where [`View::angle`](crate::View::angle) does not:
-    /// ends may be more than a turn apart. It begins as the one of all angles that differ by turns
-    /// that is nearest to the middle of the limits, to zero where one of them is infinite.
+    /// An angle is that of [`View::angle`](crate::View::angle), which goes on over turns: ends may
+    /// be more than a turn apart, and are meant as they are written.
     #[must_use]
     pub fn limits(quantity: JointQuantity<M>, bounds: [S; 2]) -> Self {
         let limits = Limits {

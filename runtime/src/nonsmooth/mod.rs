@@ -18,7 +18,6 @@
 //! Friction by the load of its joint: `bearing.rs` reads the load, `loads.rs` has it as a function
 //! of efforts, `slipping.rs` solves for what slides, `capacities.rs` for what may stick.
 //!
-//! `turning.rs` counts the turns of an angle that has limits.
 //!
 //! The reasons are in `docs/decisions/027-interactions.md` and `032-friction-by-load.md`.
 
@@ -40,4 +39,3 @@ mod slipping;
 pub(crate) mod status;
 mod switch;
 pub(crate) mod task;
-mod turning;

@@ -1,6 +1,5 @@
 //! Quantities of a mechanism along which an effort acts.
 
-use core::f64::consts::TAU;
 use core::marker::PhantomData;
 
 use crate::forward::Forward;
@@ -8,6 +7,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::handle::{HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
+use crate::mechanism::turns;
 use crate::nonsmooth::place::{At, PlaceOfPlane};
 use crate::nonsmooth::scene::Scene;
 use crate::state::vector::{Array, StateParts};
@@ -217,14 +217,9 @@ impl<S: Scalar> Quantity<S> {
     }
 }
 
-/// Which of the angles that differ by turns is nearest to another one.
-pub(super) fn nearest<S: Real>(angle: S, to: S) -> S {
-    let turn = S::constant(TAU);
-    angle - turn * (angle - to).quotient(turn).round()
-}
-
 impl<S: Real> Quantity<S> {
-    /// How far it is from a value, the short way round for an angle that does not count turns.
+    /// How far it is from a value where it is held, the short way round for an angle: the state of
+    /// an integration counts no turns.
     pub(crate) fn beyond<M: Mechanism>(&self, scene: &Scene<'_, S, M>, from: S) -> S {
         let difference = self.value(scene) - from;
         let Self::Joint(JointReading::Angle(joint)) = *self else {
@@ -234,26 +229,14 @@ impl<S: Real> Quantity<S> {
         if counts.is_some() {
             return difference;
         }
-        nearest(difference, S::zero())
-    }
-
-    /// Whether it is an angle that does not count turns.
-    pub(crate) fn wraps<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> bool {
-        let Self::Joint(JointReading::Angle(joint)) = *self else {
-            return false;
-        };
-        M::joint_angle(scene.constants, scene.bodies, joint)
-            .turns
-            .is_none()
+        turns::nearest(difference, S::zero())
     }
 }
 
 impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
     fn value(&self, reading: JointReading) -> S {
         match reading {
-            JointReading::Angle(joint) => {
-                M::joint_angle(self.constants, self.bodies, joint).angle()
-            }
+            JointReading::Angle(joint) => turns::angle::<S, M>(self.constants, self.bodies, joint),
             JointReading::Displacement(joint) => {
                 M::joint_displacement(self.constants, self.time, self.bodies, joint).value
             }

@@ -6,7 +6,7 @@
 use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::status::{Impact, InteractionMode, Status, Tracked, Turning};
+use crate::nonsmooth::status::{Impact, InteractionMode, Status, Tracked};
 
 /// In the order in which checkpoints count them.
 const MODES: [InteractionMode; 7] = [
@@ -67,16 +67,6 @@ impl<S: Real> Status<S> {
                 &mut impact.lost_energy,
             ]
         });
-        for turning in [&mut self.turning, &mut self.ahead] {
-            let still = Turning {
-                time: S::zero(),
-                angle: S::zero(),
-                rate: S::zero(),
-            };
-            several(memory, turning, still, |turning| {
-                [&mut turning.time, &mut turning.angle, &mut turning.rate]
-            });
-        }
     }
 }
 

@@ -74,14 +74,6 @@ pub(crate) enum Next<S> {
     Moving(S),
 }
 
-/// An angle with its turns, and its rate.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Turning<S> {
-    pub(super) time: S,
-    pub(super) angle: S,
-    pub(super) rate: S,
-}
-
 /// An interaction in a run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Status<S> {
@@ -112,9 +104,6 @@ pub(crate) struct Status<S> {
     /// The largest sum of the sizes of the terms of its rate so far.
     pub(crate) largest: S,
     pub(crate) impact: Option<Impact<S>>,
-    /// An angle that wraps, at the last look, and at the one that is under way.
-    pub(crate) turning: Option<Turning<S>>,
-    pub(crate) ahead: Option<Turning<S>>,
     /// What may follow, and the mode before.
     pub(crate) next: Next<S>,
     pub(crate) before: InteractionMode,
@@ -198,7 +187,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         match (status.mode, law) {
             (InteractionMode::Free, Law::Limits(limits)) => {
                 let [lower, upper] = limits.bounds;
-                let value = self.value(limits, scene);
+                let value = quantity.value(scene);
                 (value - lower).min(upper - value)
             }
             (InteractionMode::AtLower, _) => status.effort,
@@ -240,8 +229,6 @@ impl<S: Real> Status<S> {
             fastest: S::zero(),
             largest: S::zero(),
             impact: None,
-            turning: None,
-            ahead: None,
             next: Next::Without,
             before: InteractionMode::Free,
         }
@@ -288,6 +275,5 @@ impl<S: Real> Status<S> {
     /// Goes on with the last reading, by which the mode does not end.
     pub(crate) fn go_on(&mut self) {
         self.has_left |= self.reading > self.band;
-        self.turning = self.ahead.take().or(self.turning);
     }
 }

@@ -86,14 +86,8 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         }
     }
 
-    /// The limit that the quantity is on, by its sign; the fault where it is beyond. `is_moved`
-    /// where a handler may have set it.
-    fn limit(
-        &self,
-        limits: &Limits<S>,
-        scene: &Scene<'_, S, M>,
-        is_moved: bool,
-    ) -> Result<Option<S>, Fault> {
+    /// The limit that the quantity is on, by its sign; the fault where it is beyond.
+    fn limit(&self, limits: &Limits<S>, scene: &Scene<'_, S, M>) -> Result<Option<S>, Fault> {
         if self.interaction.is_dropped {
             return Ok(None);
         }
@@ -101,18 +95,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let [lower, upper] = limits.bounds;
         let size = self.size(scene);
         let beyond = part::<S>(BEYOND, 1e4) * size;
-        let mut value = if is_moved {
-            self.value_now(limits, scene)
-        } else {
-            self.value(limits, scene)
-        };
-        if is_moved
-            && (value - lower).min(upper - value) < -beyond
-            && let Some(other) = self.other_turn(value, limits, scene)
-        {
-            value = other;
-        }
-        self.begin_turning(value, scene);
+        let value = self.interaction.quantity.value(scene);
         let gaps = [value - lower, upper - value];
         let is_lower = gaps[0] <= gaps[1];
         let gap = gaps[0].min(gaps[1]);
@@ -161,7 +144,7 @@ where
     for (index, tracked) in list.iter().enumerate() {
         match &tracked.interaction.law {
             Law::Limits(limits) => {
-                let limit = setting.here(|scene| tracked.limit(limits, scene, is_moved));
+                let limit = setting.here(|scene| tracked.limit(limits, scene));
                 at_limit[index] = limit.map_err(|fault| driven(setting, list, index, fault))?;
             }
             Law::Friction(_) => is_engaged[index] = tracked.status.get().is_engaged,

@@ -17,6 +17,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
+use crate::run::followed::bodies_within;
 use crate::run::post_step::PostStabilisation;
 use crate::state::vector::{Array, StateParts};
 
@@ -223,7 +224,8 @@ where
     dynamics: Dynamics<S, M, F, A, C>,
     integrator: I,
     integration: Option<I::Integration>,
-    /// How its bodies stood last.
+    /// When (s) and how its bodies stood last.
+    time: S,
     bodies: M::State<S>,
     found: Verification<S, M>,
 }
@@ -240,12 +242,13 @@ where
     pub(crate) fn new(
         dynamics: Dynamics<S, M, F, A, C>,
         integrator: I,
-        bodies: &M::State<S>,
+        (time, bodies): (S, &M::State<S>),
     ) -> Self {
         Self {
             dynamics,
             integrator,
             integration: None,
+            time,
             bodies: *bodies,
             found: Verification::nothing(),
         }
@@ -318,7 +321,9 @@ where
         while integration.time() < time {
             integration.advance(&mut self.dynamics)?;
             if integration.time() <= time {
-                self.bodies = self.dynamics.bodies_near(integration.state(), &self.bodies);
+                let (near, end) = ((self.time, &self.bodies), integration.time());
+                self.bodies = bodies_within(&mut self.dynamics, integration, near, end)?;
+                self.time = end;
                 if let Some(stabilisation) = stabilisation {
                     let constants = self.dynamics.constants();
                     stabilisation.stabilise(constants, integration.time(), &mut self.bodies)?;
@@ -334,8 +339,9 @@ where
             }
         }
         if integration.time() > time {
-            let state = integration.at(&mut self.dynamics, time)?;
-            self.bodies = self.dynamics.bodies_near(&state, &self.bodies);
+            let near = (self.time, &self.bodies);
+            self.bodies = bodies_within(&mut self.dynamics, integration, near, time)?;
+            self.time = time;
             if let Some(stabilisation) = stabilisation {
                 stabilisation.stabilise(self.dynamics.constants(), time, &mut self.bodies)?;
             }

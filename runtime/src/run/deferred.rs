@@ -12,6 +12,8 @@ pub(crate) struct Deferred<X> {
     state: Option<X>,
     /// What a body has turned by at most since the last conversion (rad).
     turned: f64,
+    /// How long ago that was (s).
+    elapsed: f64,
 }
 
 /// How far a body may turn without a conversion (rad).
@@ -22,6 +24,7 @@ impl<X> Deferred<X> {
         Self {
             state: None,
             turned: 0.0,
+            elapsed: 0.0,
         }
     }
 
@@ -38,6 +41,7 @@ impl<X> Deferred<X> {
         let rates = state.rates_slice().iter();
         let speed = rates.fold(0.0, |sum, rate| sum + rate.to_f64().abs());
         self.turned += step.to_f64() * speed;
+        self.elapsed += step.to_f64();
         let may_wait = self.turned < FAR;
         if may_wait {
             self.state = Some(*state);
@@ -47,11 +51,19 @@ impl<X> Deferred<X> {
         may_wait
     }
 
-    /// The state that waits, to be converted now.
+    /// How long ago (s) the bodies are known of.
     #[inline]
-    pub(crate) fn take(&mut self) -> Option<X> {
-        self.turned = 0.0;
-        self.state.take()
+    pub(crate) fn elapsed<S: Real>(&self) -> S {
+        S::constant(self.elapsed)
+    }
+
+    /// The state that waits, to be converted now, and how long ago (s) the bodies are known of.
+    #[inline]
+    pub(crate) fn take<S: Real>(&mut self) -> Option<(X, S)> {
+        let elapsed = self.elapsed();
+        let state = self.state.take();
+        self.clear();
+        state.map(|state| (state, elapsed))
     }
 
     /// Forgets the state: bodies of a later one are known.

@@ -4,12 +4,13 @@ use core::fmt::{self, Debug};
 
 use crate::error::{Fault, Unheeding};
 use crate::formulation::Formulation;
-use crate::integrate::{Scheme, StepWithin};
+use crate::integrate::{Scheme, StepWithin, System as _};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
+use crate::run::followed::bodies_by_halves;
 use crate::run::stepper::{Stepper, Steps};
 
 /// A step that was taken by [`Stepper::step_dense`], for [`Stepper::within`].
@@ -86,7 +87,9 @@ where
         dt: S,
     ) -> Result<DenseStep<S, M, K, C>, Fault> {
         let mut step = self.ahead(state, dt)?;
-        self.end_step(state, step.at(S::one()), dt)?;
+        let mut next = step.at(S::one());
+        self.dynamics.follow(state, dt, &mut next);
+        self.end_step(state, next, dt)?;
         step.end = self.time();
         Ok(step)
     }
@@ -115,9 +118,19 @@ where
     }
 
     /// The bodies after a part of a step, with Euler parameters of length 1.
-    pub(super) fn bodies_within(&self, step: &DenseStep<S, M, K, C>, part: S) -> M::State<S> {
-        let bodies = self.dynamics.bodies_near(&step.at(part), &step.near);
-        with_unit_orientations::<S, M>(&bodies)
+    pub(super) fn bodies_within(
+        &self,
+        step: &DenseStep<S, M, K, C>,
+        part: S,
+    ) -> Result<M::State<S>, Fault> {
+        let time = part * (step.end - step.start);
+        let (state, near) = (step.at(part), &step.near);
+        let (mut bodies, is_known) = self.dynamics.bodies_after(&state, (time, near));
+        if !is_known {
+            let at = |_: &mut &_, time: S| Ok(step.at(time.quotient(step.end - step.start)));
+            bodies = bodies_by_halves(&self.dynamics, (S::zero(), near), time, at)?;
+        }
+        Ok(with_unit_orientations::<S, M>(&bodies))
     }
 
     /// The bodies at a time (s) within a step of this stepper, by the interpolant of the method:
@@ -138,6 +151,6 @@ where
         } else {
             (time - step.start).quotient(step.end - step.start)
         };
-        Ok(self.bodies_within(step, part))
+        self.bodies_within(step, part)
     }
 }

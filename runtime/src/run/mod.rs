@@ -9,6 +9,8 @@
 //! run reads, without a heap. A run is compiled once for both: a resumed integration is begun as it
 //! was, and then its memory is replaced.
 //!
+//! `followed.rs` counts the turns of angles within a step, in the account that states carry.
+//!
 //! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The
 //! generated factors, of the matrix with the masses, precondition its conjugate gradients, so no
 //! kernel is generated for it.
@@ -32,6 +34,7 @@ pub(crate) mod dense_step;
 pub(crate) mod direct;
 pub(crate) mod events;
 pub(crate) mod interactions;
+pub(crate) mod followed;
 pub(crate) mod kinematics;
 pub(crate) mod output;
 pub(crate) mod past;

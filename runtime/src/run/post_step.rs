@@ -6,7 +6,7 @@ use crate::math::scalar::Real;
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
-use crate::mechanism::relative::bodies_of;
+use crate::mechanism::relative::{bodies_of, joint_state_of};
 use crate::run::direct::DirectCorrection;
 
 /// What a run does to the state after every step, and to every state that it reports.
@@ -119,7 +119,7 @@ impl<S: Real, M: JointCoordinates> PostStabilisation<S, M> for TreeRecovery<S, M
         _time: S,
         state: &mut M::State<S>,
     ) -> Result<S, Fault> {
-        let joints = M::joint_state(&self.constants, state);
+        let joints = joint_state_of::<S, M>(&self.constants, state);
         let recovered = bodies_of::<S, M>(&self.constants, &joints);
         check_state::<S, M>(&recovered)?;
         *state = recovered;

@@ -224,7 +224,9 @@ impl Row {
         for ((place, joint), angle) in M::REPORT.joints.iter().enumerate().zip(angles) {
             if joint.has_angle {
                 let parts = in_double(&sample.angle_parts(place));
-                row.push(&[angle.follow(sample.time().to_f64(), &parts), parts.rate]);
+                let whole = sample.angle_of(place).to_f64();
+                let time = sample.time().to_f64();
+                row.push(&[angle.follow(time, whole, &parts), parts.rate]);
             }
             if joint.has_displacement {
                 let parts = sample.displacement_parts(place);

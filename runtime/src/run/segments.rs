@@ -17,6 +17,7 @@ use crate::monitor::{Monitor, fastest};
 use crate::run::companion::Companion;
 use crate::run::deferred::Deferred;
 use crate::run::events::list::Hybrid;
+use crate::run::followed::bodies_within;
 use crate::run::output::Schedule;
 use crate::run::past::Past;
 use crate::run::post_step::PostStabilisation;
@@ -362,8 +363,8 @@ where
         let mut start = None;
         while let Some(time) = self.schedule.within(reached) {
             start.get_or_insert_with(|| (self.dynamics.seen(), *last_good));
-            let state = integration.at(&mut self.dynamics, time)?;
-            let mut state = self.dynamics.bodies_near(&state, &last_good.1);
+            let near = (last_good.0 - self.deferred.elapsed(), &last_good.1);
+            let mut state = bodies_within(&mut self.dynamics, integration, near, time)?;
             if let Some(stabilisation) = self.stabilisation {
                 state = self.stabilised(stabilisation, time, state)?;
             }
@@ -396,13 +397,15 @@ where
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
         let time = integration.time();
+        let since = last_good.0 - self.deferred.elapsed();
         if self.may_defer() && self.deferred.defer(integration.state(), time - last_good.0) {
             last_good.0 = time;
             self.steps = self.steps.saturating_add(1);
             self.log.unseen += 1;
             return Ok(());
         }
-        let mut state = self.dynamics.bodies_near(integration.state(), &last_good.1);
+        let near = (since, &last_good.1);
+        let mut state = bodies_within(&mut self.dynamics, integration, near, time)?;
         if let Some(stabilisation) = self.stabilisation {
             state = self.stabilised(stabilisation, time, state)?;
             let state = self.dynamics.nearest_to(&state, integration.state());
@@ -431,8 +434,10 @@ where
     /// Converts the last good state to bodies, if that was deferred.
     #[inline]
     fn convert(&mut self, last_good: &mut (S, M::State<S>)) {
-        if let Some(state) = self.deferred.take() {
-            last_good.1 = self.dynamics.bodies_near(&state, &last_good.1);
+        if let Some((state, elapsed)) = self.deferred.take() {
+            // Nothing has turned far: its turns are known.
+            let near = (elapsed, &last_good.1);
+            (last_good.1, _) = self.dynamics.bodies_after(&state, near);
         }
     }
 

@@ -478,7 +478,8 @@ where
         });
         let companion = if self.is_verified {
             let integrator = self.integrator.companion(end - start);
-            integrator.map(|integrator| Companion::new(dynamics.clone(), integrator, &state))
+            integrator
+                .map(|integrator| Companion::new(dynamics.clone(), integrator, (start, &state)))
         } else {
             None
         };

@@ -4,7 +4,8 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::versine;
 use crate::state::each::EachOfJoints;
 use crate::state::vector::{
-    Vector, greater, greatest, plus, weighted_norm, zero_if_finite, zero_if_finite_after,
+    Vector, are_of_one_turn, greater, greatest, plus, weighted_norm, zero_if_finite,
+    zero_if_finite_after,
 };
 
 /// The state of a mechanism in joint coordinates: a pair (cosine, sine) for the angle of every
@@ -61,21 +62,71 @@ use crate::state::vector::{
 /// assert!((0.5 * rate * rate - 9.81 * (cosine - start.cos())).abs() < 1e-6);
 /// # Ok::<(), Fault>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointState<S, const TURNS: usize, const REST: usize, const RATES: usize> {
-    pairs: [[S; 2]; TURNS],
-    rest: [S; REST],
-    rates: [S; RATES],
+///
+/// Beside these, the state of a mechanism counts the turns of joints that have an angle: `A`
+/// numbers, see [`Vector::turns`].
+#[derive(Clone, Copy, Debug)]
+pub struct JointState<
+    S,
+    const TURNS: usize,
+    const REST: usize,
+    const RATES: usize,
+    const A: usize = 0,
+> {
+    pub(crate) pairs: [[S; 2]; TURNS],
+    pub(crate) rest: [S; REST],
+    pub(crate) rates: [S; RATES],
+    pub(crate) turns: [S; A],
+}
+
+/// Equal numbers, and no joint that is a turn further on.
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const A: usize> PartialEq
+    for JointState<S, TURNS, REST, RATES, A>
+{
+    fn eq(&self, other: &Self) -> bool {
+        self.pairs == other.pairs
+            && self.rest == other.rest
+            && self.rates == other.rates
+            && are_of_one_turn(&self.turns, &other.turns)
+    }
 }
 
 impl<S, const TURNS: usize, const REST: usize, const RATES: usize>
     JointState<S, TURNS, REST, RATES>
 {
-    /// A state of its parts. Pairs are taken as they are: their length should be 1.
+    /// A state of its parts that counts no angle. Pairs are taken as they are: their length should
+    /// be 1.
     #[inline(always)]
     #[must_use]
     pub const fn from_parts(pairs: [[S; 2]; TURNS], rest: [S; REST], rates: [S; RATES]) -> Self {
-        Self { pairs, rest, rates }
+        let turns = [];
+        Self {
+            pairs,
+            rest,
+            rates,
+            turns,
+        }
+    }
+}
+
+impl<S, const TURNS: usize, const REST: usize, const RATES: usize, const A: usize>
+    JointState<S, TURNS, REST, RATES, A>
+{
+    /// The same for any account of angles, which begins at zero.
+    #[doc(hidden)]
+    #[inline(always)]
+    #[must_use]
+    pub fn of_parts(pairs: [[S; 2]; TURNS], rest: [S; REST], rates: [S; RATES]) -> Self
+    where
+        S: Scalar,
+    {
+        let turns = [S::zero(); A];
+        Self {
+            pairs,
+            rest,
+            rates,
+            turns,
+        }
     }
 
     /// Cosine and sine of the angle of every turning joint; of a slope, the rate of the angle
@@ -124,18 +175,32 @@ impl<S, const TURNS: usize, const REST: usize, const RATES: usize>
 
 /// The increments of the angles (rad): the sums of factor times slope.
 #[inline(always)]
-fn increments<S: Scalar, const T: usize, const Q: usize, const U: usize, const K: usize>(
-    terms: &[(S, &JointState<S, T, Q, U>); K],
-) -> [S; T] {
+fn increments<
+    S: Scalar,
+    const P: usize,
+    const Q: usize,
+    const U: usize,
+    const A: usize,
+    const K: usize,
+>(
+    terms: &[(S, &JointState<S, P, Q, U, A>); K],
+) -> [S; P] {
     // Adding to -0 changes no number, and so costs nothing.
-    more_increments([-S::zero(); T], terms)
+    more_increments([-S::zero(); P], terms)
 }
 
 #[inline(always)]
-fn more_increments<S: Scalar, const T: usize, const Q: usize, const U: usize, const K: usize>(
-    mut sums: [S; T],
-    terms: &[(S, &JointState<S, T, Q, U>); K],
-) -> [S; T] {
+fn more_increments<
+    S: Scalar,
+    const P: usize,
+    const Q: usize,
+    const U: usize,
+    const A: usize,
+    const K: usize,
+>(
+    mut sums: [S; P],
+    terms: &[(S, &JointState<S, P, Q, U, A>); K],
+) -> [S; P] {
     for (factor, slope) in terms {
         for (sum, [rate, _]) in sums.iter_mut().zip(&slope.pairs) {
             *sum = rate.fused(*factor, *sum);
@@ -292,8 +357,8 @@ fn turned_little_and_twice<S: Scalar, const T: usize>(
     [once, twice]
 }
 
-impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize>
-    JointState<S, TURNS, REST, RATES>
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const A: usize>
+    JointState<S, TURNS, REST, RATES, A>
 {
     /// The sum, of which the pairs are known.
     #[inline(always)]
@@ -302,12 +367,13 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize>
             pairs,
             rest: plus(&self.rest, &terms, |x| &x.rest),
             rates: plus(&self.rates, &terms, |x| &x.rates),
+            turns: self.turns,
         }
     }
 }
 
-impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vector<S>
-    for JointState<S, TURNS, REST, RATES>
+impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const A: usize> Vector<S>
+    for JointState<S, TURNS, REST, RATES, A>
 {
     const PLUS_IS_COSTLY: bool = TURNS > 0;
 
@@ -357,6 +423,7 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
             pairs,
             rest: Vector::zip(&self.rest, &other.rest, &mut f),
             rates: Vector::zip(&self.rates, &other.rates, &mut f),
+            turns: self.turns,
         }
     }
 
@@ -445,6 +512,7 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
             pairs: turned(&self.pairs, &angles),
             rest: self.rest.towards(&to.rest, weight, [], rest),
             rates: self.rates.towards(&to.rates, weight, [], rates),
+            turns: self.turns,
         }
     }
 
@@ -481,6 +549,16 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize> Vecto
             zero_if_finite(pairs) + zero_if_finite(&self.rest) + zero_if_finite(&self.rates)
         };
         zero == S::zero()
+    }
+
+    #[inline(always)]
+    fn turns(&self) -> &[S] {
+        &self.turns
+    }
+
+    #[inline(always)]
+    fn turns_mut(&mut self) -> &mut [S] {
+        &mut self.turns
     }
 }
 

@@ -168,6 +168,23 @@ pub trait Vector<S: Scalar>: Clone {
         norm
     }
 
+    /// The account of angles over many turns: the angle (rad) of every joint that has one, in their
+    /// order, as it was counted last, and behind these how far (rad) any may have turned since.
+    /// Zeros where nothing was counted: the described configuration. Empty for a mechanism without
+    /// such joints.
+    ///
+    /// An angle that is read is the one of all with its sine and cosine that is nearest to this.
+    /// Runs and steppers count on, and setting an angle sets it; no integrator moves it.
+    #[must_use]
+    fn turns(&self) -> &[S] {
+        &[]
+    }
+
+    /// The account, to be written.
+    fn turns_mut(&mut self) -> &mut [S] {
+        &mut []
+    }
+
     /// Whether every element is finite.
     #[must_use]
     fn is_finite(&self) -> bool
@@ -338,13 +355,63 @@ pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
 /// coordinates of all bodies stand the auxiliary variables of mechanisms that have some: angles
 /// that count turns (rad). The user's own states are behind these. The same type holds the rates of
 /// a state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<S, const Q: usize, const U: usize> {
+///
+/// Beside these, a state counts the turns of joints that have an angle: `A` numbers, which no
+/// integrator moves. See [`Vector::turns`].
+#[derive(Clone, Copy, Debug)]
+pub struct State<S, const Q: usize, const U: usize, const A: usize = 0> {
     coordinates: [S; Q],
     velocities: [S; U],
+    turns: [S; A],
 }
 
-impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
+impl<S, const Q: usize, const U: usize> State<S, Q, U> {
+    /// A state of its parts that counts no angle.
+    #[inline(always)]
+    #[must_use]
+    pub const fn from_parts(coordinates: [S; Q], velocities: [S; U]) -> Self {
+        let turns = [];
+        Self {
+            coordinates,
+            velocities,
+            turns,
+        }
+    }
+}
+
+impl<S: Scalar, const Q: usize, const U: usize, const A: usize> State<S, Q, U, A> {
+    /// The same for any account of angles, which begins at zero.
+    #[doc(hidden)]
+    #[inline(always)]
+    #[must_use]
+    pub fn of_parts(coordinates: [S; Q], velocities: [S; U]) -> Self {
+        let turns = [S::zero(); A];
+        Self {
+            coordinates,
+            velocities,
+            turns,
+        }
+    }
+}
+
+/// Equal numbers, and no joint that is a turn further on.
+impl<S: Scalar, const Q: usize, const U: usize, const A: usize> PartialEq for State<S, Q, U, A> {
+    fn eq(&self, other: &Self) -> bool {
+        self.coordinates == other.coordinates
+            && self.velocities == other.velocities
+            && are_of_one_turn(&self.turns, &other.turns)
+    }
+}
+
+/// Whether the same angles are meant by two counts, see [`Vector::turns`].
+pub(crate) fn are_of_one_turn<S: Scalar, const T: usize>(a: &[S; T], b: &[S; T]) -> bool {
+    let angles = T.saturating_sub(1);
+    let turn = S::constant(core::f64::consts::TAU.recip());
+    let mut both = a.iter().zip(b).take(angles);
+    both.all(|(&a, &b)| ((a - b) * turn).round() == S::zero())
+}
+
+impl<S: Scalar, const Q: usize, const U: usize, const A: usize> Vector<S> for State<S, Q, U, A> {
     type Each<T: Clone> = EachOfState<T, Q, U>;
 
     fn each<T: Clone>(&self, value: T) -> EachOfState<T, Q, U> {
@@ -382,6 +449,7 @@ impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
         Self {
             coordinates: Vector::zip(&self.coordinates, &other.coordinates, &mut f),
             velocities: Vector::zip(&self.velocities, &other.velocities, &mut f),
+            turns: self.turns,
         }
     }
 
@@ -396,6 +464,7 @@ impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
         Self {
             coordinates: plus(&self.coordinates, &terms, |x| &x.coordinates),
             velocities: plus(&self.velocities, &terms, |x| &x.velocities),
+            turns: self.turns,
         }
     }
 
@@ -420,6 +489,16 @@ impl<S: Scalar, const Q: usize, const U: usize> Vector<S> for State<S, Q, U> {
         // Not `&&`, which would branch once more.
         zero_if_finite(&self.coordinates) + zero_if_finite(&self.velocities) == S::zero()
     }
+
+    #[inline(always)]
+    fn turns(&self) -> &[S] {
+        &self.turns
+    }
+
+    #[inline(always)]
+    fn turns_mut(&mut self) -> &mut [S] {
+        &mut self.turns
+    }
 }
 
 /// A state with velocities, in whatever coordinates. Its slope has the same type.
@@ -434,12 +513,15 @@ pub trait MovingState<S: Scalar>: Vector<S> + Copy + core::fmt::Debug + PartialE
     fn rates_slice_mut(&mut self) -> &mut [S];
 }
 
-impl<S: Scalar, const Q: usize, const U: usize> MovingState<S> for State<S, Q, U> {
+impl<S: Scalar, const Q: usize, const U: usize, const A: usize> MovingState<S>
+    for State<S, Q, U, A>
+{
     #[inline(always)]
     fn zeros() -> Self {
         Self {
             coordinates: [S::zero(); Q],
             velocities: [S::zero(); U],
+            turns: [S::zero(); A],
         }
     }
 
@@ -461,7 +543,7 @@ pub trait StateParts<S: Scalar>: MovingState<S> {
     /// Velocities `u`.
     type Velocities: Array<S>;
 
-    /// A state of the two parts.
+    /// A state of the two parts, near the described configuration: nothing is counted.
     fn from_parts(coordinates: Self::Coordinates, velocities: Self::Velocities) -> Self;
 
     /// Coordinates `q` (and auxiliary variables).
@@ -477,16 +559,15 @@ pub trait StateParts<S: Scalar>: MovingState<S> {
     fn velocities_mut(&mut self) -> &mut Self::Velocities;
 }
 
-impl<S: Scalar, const Q: usize, const U: usize> StateParts<S> for State<S, Q, U> {
+impl<S: Scalar, const Q: usize, const U: usize, const A: usize> StateParts<S>
+    for State<S, Q, U, A>
+{
     type Coordinates = [S; Q];
     type Velocities = [S; U];
 
     #[inline(always)]
     fn from_parts(coordinates: [S; Q], velocities: [S; U]) -> Self {
-        Self {
-            coordinates,
-            velocities,
-        }
+        Self::of_parts(coordinates, velocities)
     }
 
     #[inline(always)]
@@ -512,7 +593,7 @@ impl<S: Scalar, const Q: usize, const U: usize> StateParts<S> for State<S, Q, U>
 
 #[cfg(test)]
 mod tests {
-    use super::{State, StateParts, Vector};
+    use super::{State, Vector};
     use crate::math::scalar::Real;
 
     fn all_places<S: Real, const N: usize>(largest: S) {

@@ -88,8 +88,8 @@ fn by_joints<M: JointCoordinates>(
     (state, stepper.bodies(&state))
 }
 
-fn on_circle<const TURNS: usize, const REST: usize, const RATES: usize>(
-    state: &JointState<f64, TURNS, REST, RATES>,
+fn on_circle<const TURNS: usize, const REST: usize, const RATES: usize, const A: usize>(
+    state: &JointState<f64, TURNS, REST, RATES, A>,
 ) {
     for [cosine, sine] in state.pairs() {
         assert!((cosine.hypot(*sine) - 1.0).abs() < 1e-15);

@@ -97,7 +97,7 @@ fn files_of_something_else_are_refused() {
     );
     assert_eq!(
         refused::<Rod>(with("of", "format", json!(7))),
-        "this is a checkpoint in the format 7, and this program reads the format 1"
+        "this is a checkpoint in the format 7, and this program reads the format 2"
     );
     let other = refused::<Rod>(with("of", "holonom", json!("0.0.1")));
     assert!(

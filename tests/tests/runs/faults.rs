@@ -96,7 +96,7 @@ fn an_orientation_without_length_names_its_body() {
             orientation: nalgebra::Quaternion::new(0.0, size, size, 0.0),
         };
         RodPendulum::set_pose(&mut state, RodPendulum::HANDLES.rod, pose);
-        let state: holonom::state::State<f64, 7, 6> = state;
+        let state: holonom::state::State<f64, 7, 6, 2> = state;
         assert!(state.coordinates().iter().all(|q| q.is_finite()));
         let refused = Fault::ZeroOrientation { body: "rod" };
         let error = Simulation::new(&rod, Penalty::default(), DormandPrince::default())

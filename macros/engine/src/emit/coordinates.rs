@@ -34,6 +34,7 @@ impl Writer<'_, JointKernels> {
             ..
         } = *kernels;
         let rows = kernels.rows.len();
+        let angles = model.layout().turns;
         let read = kernels.bodies.outputs.len();
         let evaluations = self.evaluations();
         let dispatch = self.dispatch();
@@ -58,7 +59,7 @@ impl Writer<'_, JointKernels> {
             #[automatically_derived]
             #documentation
             impl #facade::JointCoordinates for #name {
-                type JointState<__S: #facade::Scalar> = #facade::__private::JointState<__S, #turns, #rest, #velocities>;
+                type JointState<__S: #facade::Scalar> = #facade::__private::JointState<__S, #turns, #rest, #velocities, #angles>;
                 type ClosingMultipliers<__S: #facade::Scalar> = [__S; #rows];
                 type JointConstants<__S: #facade::Scalar> = [__S; #c];
                 type JointCoefficients<__S: #facade::Scalar> = [__S; #k];
@@ -174,7 +175,7 @@ impl Writer<'_, JointKernels> {
             ) -> Self::JointState<__S> {
                 #unpack
                 #statements
-                #facade::__private::JointState::from_parts([#(#pairs),*], [#(#rest),*], [#(#rates),*])
+                #facade::__private::JointState::of_parts([#(#pairs),*], [#(#rest),*], [#(#rates),*])
             }
         }
     }

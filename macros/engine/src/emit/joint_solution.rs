@@ -80,7 +80,7 @@ impl Described for JointKernels {
         let (angles, others) = outputs.split_at(self.turns);
         let (coordinates, velocities) = others.split_at(self.rest);
         quote! {
-            #facade::__private::JointState::from_parts(
+            #facade::__private::JointState::of_parts(
                 [#([#angles, __S::constant(0.0)]),*],
                 [#(#coordinates),*],
                 [#(#velocities),*],
@@ -215,7 +215,7 @@ impl Writer<'_, JointKernels> {
             ) -> Self::JointState<__S> {
                 #unpack
                 #statements
-                #facade::__private::JointState::from_parts(
+                #facade::__private::JointState::of_parts(
                     [#([#angles, __S::constant(0.0)]),*],
                     [#(#others),*],
                     [__S::constant(0.0); #velocities],

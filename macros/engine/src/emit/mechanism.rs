@@ -145,11 +145,12 @@ impl Writer<'_> {
         let facade = self.facade;
         let layout = self.model.layout();
         let (q, u, m) = (layout.stored(), layout.velocities, layout.rows);
+        let angles = layout.turns;
         let values = self.model.parameters();
         let jacobian_size = self.kernels.jacobian.outputs.len();
         let (c, k) = (self.store.constants(), self.store.coefficients());
         quote! {
-            type State<__S: #facade::Scalar> = #facade::__private::State<__S, #q, #u>;
+            type State<__S: #facade::Scalar> = #facade::__private::State<__S, #q, #u, #angles>;
             type Velocities<__S: #facade::Scalar> = [__S; #u];
             type Multipliers<__S: #facade::Scalar> = [__S; #m];
             type Jacobian<__S: #facade::Scalar> = [__S; #jacobian_size];
@@ -332,7 +333,7 @@ impl Writer<'_> {
         quote! {
             fn initial_state<__S: #facade::Scalar>(#constants: &Self::Constants<__S>) -> Self::State<__S> {
                 #statements
-                #facade::__private::State::from_parts([#(#coordinates),*], [#(#velocities),*])
+                #facade::__private::State::of_parts([#(#coordinates),*], [#(#velocities),*])
             }
         }
     }

@@ -42,7 +42,7 @@ impl Described for Kernels {
 
     fn rates(&self, facade: &TokenStream, outputs: &[TokenStream]) -> TokenStream {
         let (coordinates, velocities) = outputs.split_at(outputs.len() - self.velocities());
-        quote!(#facade::__private::State::from_parts([#(#coordinates),*], [#(#velocities),*]))
+        quote!(#facade::__private::State::of_parts([#(#coordinates),*], [#(#velocities),*]))
     }
 
     fn multipliers(&self) -> Range<usize> {

@@ -353,6 +353,11 @@ impl Model {
     /// The place of each body's first coordinate and first velocity, and the totals.
     #[must_use]
     pub fn layout(&self) -> Layout {
+        let angles = self.joints.iter().filter(|joint| {
+            let definition = self.definition(joint);
+            definition.angle.is_some()
+        });
+        let angles = angles.count();
         let mut layout = Layout::default();
         for body in &self.bodies {
             layout.coordinate.push(layout.coordinates);
@@ -366,6 +371,7 @@ impl Model {
             layout.row.push(layout.rows);
             layout.rows += self.equations(joint);
         }
+        layout.turns = angles + usize::from(angles > 0);
         layout
     }
 }
@@ -389,6 +395,9 @@ pub struct Layout {
     pub velocities: usize,
     /// All rows.
     pub rows: usize,
+    /// The account of angles over many turns: one number for each joint with an angle, in their
+    /// order, and one for how far they may have turned since.
+    pub turns: usize,
 }
 
 impl Layout {

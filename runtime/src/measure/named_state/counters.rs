@@ -11,31 +11,81 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::names::Among;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
-use crate::state::vector::{Array, MovingState as _, StateParts};
+use crate::mechanism::turns::{FAR, place_of};
+use crate::state::vector::{Array as _, MovingState as _, StateParts, Vector as _};
 
 /// The angles of which turns are counted by joints and forces, by name; the rest of the state is
 /// zero once read.
 pub(super) struct Counters<M: Mechanism, S: Real>(pub(super) M::State<S>);
 
+/// Where the angles of a joint or force are in a state.
+#[derive(Clone)]
+enum Places {
+    /// Among the auxiliary variables.
+    Auxiliary(Range<usize>),
+    /// In the account of angles that no variable counts.
+    Account(usize),
+}
+
+impl Places {
+    fn of<'s, S: Real, X: StateParts<S>>(&self, state: &'s X) -> &'s [S] {
+        let angles = match self {
+            Self::Auxiliary(places) => state.coordinates().as_slice().get(places.clone()),
+            Self::Account(place) => state.turns().get(*place..=*place),
+        };
+        angles.unwrap_or(&[])
+    }
+
+    fn of_mut<'s, S: Real, X: StateParts<S>>(&self, state: &'s mut X) -> &'s mut [S] {
+        let angles = match self {
+            Self::Auxiliary(places) => {
+                let coordinates = state.coordinates_mut().as_mut_slice();
+                coordinates.get_mut(places.clone())
+            }
+            Self::Account(place) => state.turns_mut().get_mut(*place..=*place),
+        };
+        angles.unwrap_or(&mut [])
+    }
+
+    /// Whether a file must have them: one that has not was written before turns were counted.
+    fn are_needed(&self) -> bool {
+        matches!(self, Self::Auxiliary(_))
+    }
+}
+
 /// Joints and forces that count turns, and the places of their angles.
-fn counters<M: Mechanism>() -> impl Iterator<Item = (&'static str, Range<usize>)> {
-    let joints = M::REPORT.joints.iter();
-    let joints = joints.map(|joint| (joint.name, joint.auxiliary, joint.auxiliaries));
-    let forces = M::REPORT.forces.iter();
-    let forces = forces.map(|force| (force.name, force.auxiliary, force.auxiliaries));
-    let all = joints.chain(forces).filter(|(_, _, count)| *count > 0);
-    all.map(|(name, first, count)| (name, first..first + count))
+fn counters<M: Mechanism>() -> impl Iterator<Item = (&'static str, Places)> {
+    let joints = M::REPORT.joints.iter().enumerate();
+    let joints = joints.filter_map(|(index, joint)| {
+        let (first, count) = (joint.auxiliary, joint.auxiliaries);
+        let places = if count > 0 {
+            Places::Auxiliary(first..first + count)
+        } else {
+            Places::Account(place_of::<M>(index)?)
+        };
+        Some((joint.name, places))
+    });
+    let forces = M::REPORT
+        .forces
+        .iter()
+        .filter(|force| force.auxiliaries > 0);
+    let forces = forces.map(|force| {
+        let (first, count) = (force.auxiliary, force.auxiliaries);
+        (force.name, Places::Auxiliary(first..first + count))
+    });
+    joints.chain(forces)
 }
 
 impl<M: Mechanism, S: Real> Counters<M, S> {
     /// Puts the angles into their places in a state.
     pub(super) fn put_into(&self, state: &mut M::State<S>) {
         for (_, places) in counters::<M>() {
-            let from = self.0.coordinates().as_slice().get(places.clone());
-            let to = state.coordinates_mut().as_mut_slice().get_mut(places);
-            if let (Some(from), Some(to)) = (from, to) {
-                to.copy_from_slice(from);
-            }
+            let to = places.of_mut(state);
+            to.copy_from_slice(places.of(&self.0));
+        }
+        // They are of some time ago.
+        if let Some(since) = state.turns_mut().last_mut() {
+            *since = S::constant(FAR);
         }
     }
 }
@@ -44,8 +94,7 @@ impl<M: Mechanism, S: Real + Serialize> Serialize for Counters<M, S> {
     fn serialize<W: Serializer>(&self, serializer: W) -> Result<W::Ok, W::Error> {
         let mut angles = serializer.serialize_map(Some(counters::<M>().count()))?;
         for (name, places) in counters::<M>() {
-            let counted = self.0.coordinates().as_slice().get(places);
-            angles.serialize_entry(name, counted.unwrap_or(&[]))?;
+            angles.serialize_entry(name, places.of(&self.0))?;
         }
         angles.end()
     }
@@ -67,7 +116,7 @@ impl<'de, M: Mechanism, S: Real + Deserialize<'de>> Visitor<'de> for CountersByN
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-        let (mut state, mut count) = (M::State::<S>::zeros(), 0);
+        let mut state = M::State::<S>::zeros();
         let places_of = |name: &str| counters::<M>().find(|(known, _)| *known == name);
         let mut seen = M::State::<S>::zeros();
         loop {
@@ -80,29 +129,20 @@ impl<'de, M: Mechanism, S: Real + Deserialize<'de>> Visitor<'de> for CountersByN
             let Some((name, places)) = map.next_key_seed(names)? else {
                 break;
             };
-            let flags = seen
-                .coordinates_mut()
-                .as_mut_slice()
-                .get_mut(places.clone());
-            let flags = flags.unwrap_or(&mut []);
+            let flags = places.of_mut(&mut seen);
             if flags.iter().any(|flag| *flag == S::one()) {
                 let twice = format_args!("`{name}` is there twice");
                 return Err(A::Error::custom(twice));
             }
             flags.fill(S::one());
-            let angles = state.coordinates_mut().as_mut_slice().get_mut(places);
-            map.next_value_seed(Angles(angles.unwrap_or(&mut [])))?;
-            count += 1;
+            map.next_value_seed(Angles(places.of_mut(&mut state)))?;
         }
-        if count == counters::<M>().count() {
-            return Ok(Counters(state));
-        }
-        let is_missing = |places: &Range<usize>| {
-            let flags = seen.coordinates().as_slice().get(places.clone());
-            flags.is_none_or(|flags| flags.contains(&S::zero()))
-        };
+        let is_missing =
+            |places: &Places| places.are_needed() && places.of(&seen).contains(&S::zero());
         let missing = counters::<M>().find(|(_, places)| is_missing(places));
-        let missing = missing.map_or("", |(name, _)| name);
+        let Some((missing, _)) = missing else {
+            return Ok(Counters(state));
+        };
         let mechanism = M::REPORT.name;
         let missing =
             format_args!("the unwrapped angles of `{missing}` of `{mechanism}` are missing");

@@ -148,5 +148,6 @@ where
 fn elements<S: Real, X: Vector<S>>(vector: &X) -> Vec<S> {
     let mut elements = Vec::with_capacity(vector.length());
     vector.for_each(|element| elements.push(element));
+    elements.extend_from_slice(vector.turns());
     elements
 }

@@ -25,7 +25,7 @@ use crate::run::past::Progress;
 use crate::state::vector::Array;
 
 /// The format of files. A change of what is written, or of its meaning, makes it another one.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 

@@ -10,9 +10,6 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::status::Status;
 use crate::run::events::root::{MOST, locate};
 
-/// Looks are at least so many units in the last place apart.
-const LEAST: f64 = 4.0;
-
 /// A step, with the bodies at any time within it.
 pub(crate) trait Looked<S, M, F, A, C>
 where
@@ -29,37 +26,8 @@ where
     fn bodies_at(&mut self, time: S) -> Result<M::State<S>, Fault>;
 
     /// Where the first mode of an interaction ends between two times, of which the bodies at the
-    /// second are known. Looked into more often where an angle with limits asks for it.
+    /// second are known.
     fn first_end_of_a_mode(
-        &mut self,
-        before: S,
-        (time, bodies): (S, &M::State<S>),
-    ) -> Result<Option<S>, Fault> {
-        let mut before = before;
-        loop {
-            let (mut next, mut at) = (time, *bodies);
-            while !self.looked().follows_turns(next, &at) {
-                let step = S::constant(0.5) * (next - before);
-                if step <= S::constant(LEAST) * time.ulp() {
-                    return Err(Fault::StepTooShort {
-                        step: step.to_f64(),
-                        time: before.to_f64(),
-                    });
-                }
-                next = before + step;
-                at = self.bodies_at(next)?;
-            }
-            let first = self.first_end_of_a_mode_near(before, (next, &at))?;
-            if first.is_some() || next == time {
-                return Ok(first);
-            }
-            self.modes_go_on();
-            before = next;
-        }
-    }
-
-    /// The same where the turns of angles are known.
-    fn first_end_of_a_mode_near(
         &mut self,
         before: S,
         (time, bodies): (S, &M::State<S>),

@@ -14,6 +14,7 @@ use crate::run::events::looked::Looked;
 use crate::run::events::root::{MOST, locate};
 use crate::run::events::switching::{Switching, of, sliding, undecided};
 use crate::run::events::watch::{is_same, looks};
+use crate::run::followed::bodies_within;
 use crate::run::sample::Sample;
 use crate::run::segments::Run;
 
@@ -46,7 +47,8 @@ where
             dynamics: &mut self.dynamics,
             end: integration.time(),
             integration,
-            near,
+            since: start,
+            near: *near,
         };
         let found = step.first_event(start, hybrid);
         self.dynamics.recall(seen);
@@ -58,7 +60,9 @@ where
 struct Step<'s, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>, K> {
     dynamics: &'s mut Dynamics<S, M, F, A, C>,
     integration: &'s mut K,
-    near: &'s M::State<S>,
+    /// The last look (s), and the bodies there.
+    since: S,
+    near: M::State<S>,
     end: S,
 }
 
@@ -109,7 +113,7 @@ where
                         Ok(())
                     })?;
                 }
-                before = time;
+                (before, self.since, self.near) = (time, time, bodies);
                 continue;
             };
             // The end of an interval where it is there to round-off.
@@ -259,13 +263,8 @@ where
     }
 
     fn bodies_at(&mut self, time: S) -> Result<M::State<S>, Fault> {
-        let bodies = if time == self.end {
-            let state = self.integration.state();
-            self.dynamics.bodies_near(state, self.near)
-        } else {
-            let state = self.integration.at(self.dynamics, time)?;
-            self.dynamics.bodies_near(&state, self.near)
-        };
+        let near = (self.since, &self.near);
+        let bodies = bodies_within(self.dynamics, self.integration, near, time)?;
         Ok(with_unit_orientations::<S, M>(&bodies))
     }
 }

@@ -7,6 +7,7 @@ use crate::measure::load::AppliedForces;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::turns;
 use crate::run::events::root::locate;
 use crate::run::events::watch::{Crossing, Watch, looks};
 use crate::run::stepper::{Stepper, Steps};
@@ -79,7 +80,7 @@ where
         let step = self.ahead(state, dt)?;
         let watch = Watch::new("the end of a step", crossing);
         let read = |part: S| {
-            let bodies = self.bodies_within(&step, part);
+            let bodies = self.bodies_within(&step, part)?;
             let time = part.fused(dt, time);
             watch.checked(time, reading(&self.dynamics.view(time, &bodies)))
         };
@@ -101,7 +102,9 @@ where
             before = part;
         }
         let part = found.unwrap_or(one);
-        self.end_step(state, step.at(part), part * dt)?;
+        let mut next = step.at(part);
+        turns::copy(&self.bodies_within(&step, part)?, &mut next);
+        self.end_step(state, next, part * dt)?;
         Ok(found.map(|_| self.time()))
     }
 }

@@ -9,9 +9,11 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
+use crate::mechanism::turns;
 use crate::nonsmooth::status::{Impact, InteractionMode, Tracked};
 use crate::run::events::looked::Looked;
 use crate::run::events::watch::looks;
+use crate::run::followed::bodies_by_halves;
 use crate::run::stepper::{Stepper, Steps};
 
 /// How often modes may change within a step, besides what each interaction may.
@@ -133,7 +135,7 @@ where
         for _ in 0..changes {
             let step = StepWithin::take(scheme, dynamics, (time, &next), left)?;
             let near = dynamics.bodies(&next);
-            let found = Within {
+            let mut within = Within {
                 dynamics: &*dynamics,
                 state_at: |at: S| {
                     if at == end {
@@ -142,9 +144,11 @@ where
                         step.at((at - time).quotient(left))
                     }
                 },
-                near: &near,
-            }
-            .first_end(time, end)?;
+                since: time,
+                near,
+            };
+            let found = within.first_end(time, end)?;
+            let near = within.near;
             let reached = found.unwrap_or(end);
             next = if found.is_some() {
                 step.at((reached - time).quotient(left))
@@ -152,6 +156,7 @@ where
                 *step.end()
             };
             dynamics.renormalise(&mut next, None);
+            turns::copy(&near, &mut next);
             if let Some(held) = dynamics.held(reached, &next)? {
                 next = held;
             }
@@ -177,7 +182,9 @@ where
 struct Within<'s, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>, G> {
     dynamics: &'s Dynamics<S, M, F, A, C>,
     state_at: G,
-    near: &'s M::State<S>,
+    /// The last look (s), and the bodies there.
+    since: S,
+    near: M::State<S>,
 }
 
 impl<S, M, F, A, C, G> Within<'_, S, M, F, A, C, G>
@@ -197,10 +204,11 @@ where
             if let Some(root) = self.first_end_of_a_mode(before, (time, &bodies))? {
                 let bodies = self.bodies_at(root)?;
                 self.take_ends_of_modes(root, &bodies)?;
+                (self.since, self.near) = (root, bodies);
                 return Ok(Some(root));
             }
             self.modes_go_on();
-            before = time;
+            (before, self.since, self.near) = (time, time, bodies);
         }
         Ok(None)
     }
@@ -220,8 +228,13 @@ where
     }
 
     fn bodies_at(&mut self, time: S) -> Result<M::State<S>, Fault> {
+        let (start, near) = (self.since, &self.near);
         let state = (self.state_at)(time);
-        let bodies = self.dynamics.bodies_near(&state, self.near);
+        let (mut bodies, is_known) = self.dynamics.bodies_after(&state, (time - start, near));
+        if !is_known {
+            let at = |_: &mut &_, time| Ok((self.state_at)(time));
+            bodies = bodies_by_halves(self.dynamics, (start, near), time, at)?;
+        }
         Ok(with_unit_orientations::<S, M>(&bodies))
     }
 }

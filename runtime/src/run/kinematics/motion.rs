@@ -13,6 +13,7 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::{Absolute, Evaluation};
 use crate::mechanism::kernels::{Mechanism, Pivot, Terms};
+use crate::mechanism::turns;
 use crate::monitor::Passage;
 use crate::state::vector::{Array, StateParts};
 
@@ -229,7 +230,13 @@ where
         let constants = self.dynamics.constants();
         let step = time - from.time;
         let near = advanced::<S, M>(constants, &from.state, accelerations, step);
-        let found = self.find(time, near)?;
+        let mut found = self.find(time, near)?;
+        turns::follow::<S, M>(
+            self.dynamics.constants(),
+            &from.state,
+            step,
+            &mut found.state,
+        );
         let turn = apart::<S, M>(&from.state, &found.state, self.length).size;
         let mut off = apart::<S, M>(&near, &found.state, self.length);
         off.size = off.size.max(counted_apart::<S, M>(&near, &found.state));

@@ -231,9 +231,15 @@ fn interpolated<S: Real, M: Mechanism>(points: &[M::State<S>], part: S) -> M::St
         let weight = if is_end { half * sign } else { sign };
         let weight = weight.quotient(distance);
         sum = sum.zip(point, |sum, x| x.fused(weight, sum));
+        for (sum, &angle) in sum.turns_mut().iter_mut().zip(point.turns()) {
+            *sum = angle.fused(weight, *sum);
+        }
         weights = weights + weight;
     }
-    let state = sum.zip(&sum, |x, _| x.quotient(weights));
+    let mut state = sum.zip(&sum, |x, _| x.quotient(weights));
+    for angle in state.turns_mut() {
+        *angle = angle.quotient(weights);
+    }
     with_unit_orientations::<S, M>(&state)
 }
 

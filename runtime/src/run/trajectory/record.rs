@@ -10,7 +10,9 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
+use crate::mechanism::turns;
 use crate::run::events::list::Happening;
+use crate::run::followed::bodies_within;
 use crate::run::segments::Run;
 use crate::state::vector::{MovingState as _, Vector as _};
 
@@ -70,7 +72,7 @@ where
         let mut points: Points<M::State<S>> = [None; FINEST + 1];
         let to = match at_end {
             Some(bodies) => *bodies,
-            None => self.dynamics.bodies_near(integration.state(), from),
+            None => bodies_within(&mut self.dynamics, integration, (start, from), end)?,
         };
         points[FINEST] = Some(self.recorded(end, to)?);
         let mut look = |run: &mut Self, points: &mut Points<M::State<S>>, intervals: usize| {
@@ -80,8 +82,8 @@ where
                 };
                 let part = POINTS.get(place).copied().unwrap_or(1.0);
                 let time = S::constant(part).fused(end - start, start);
-                let state = integration.at(&mut run.dynamics, time)?;
-                let bodies = run.dynamics.bodies_near(&state, from);
+                let near = (start, from);
+                let bodies = bodies_within(&mut run.dynamics, integration, near, time)?;
                 *point = Some(run.recorded(time, bodies)?);
             }
             Ok::<(), Fault>(())
@@ -113,7 +115,11 @@ where
     /// interpolant has not.
     fn recorded(&mut self, time: S, bodies: M::State<S>) -> Result<M::State<S>, Fault> {
         let mut bodies = with_unit_orientations::<S, M>(&bodies);
-        M::rewrap(self.dynamics.constants(), &mut bodies);
+        let constants = self.dynamics.constants();
+        M::rewrap(constants, &mut bodies);
+        // Angles as they are there, of which the polynomial is made.
+        let counted = bodies;
+        turns::count::<S, M>(constants, &counted, S::zero(), &mut bodies);
         match self.stabilisation {
             Some(stabilisation) => self.stabilised(stabilisation, time, bodies),
             None => Ok(bodies),

@@ -1,0 +1,140 @@
+//! Angles of joints over many turns.
+//!
+//! A state counts them, see [`Vector::turns`]: the angle of every joint that has one when it
+//! was counted last, and how far any may have turned since, by the sum of all rates. Angles are
+//! counted anew where that may be a radian, so a step of a slow motion costs a sum. Sine and cosine
+//! tell an angle up to whole turns; these are the ones that bring it nearest to what was counted
+//! last and the mean of both rates times the time between.
+
+use core::f64::consts::{FRAC_PI_2, TAU};
+
+use crate::math::scalar::{Real, Scalar};
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::readout::AngleParts;
+use crate::state::vector::{MovingState, Vector};
+
+/// How far angles may have turned (rad) since they were counted.
+pub(crate) const FAR: f64 = 1.0;
+
+/// Half a turn, and round-off beside it: an angle of `pi` that nothing was counted of stays one.
+const HALF: f64 = 0.500_001;
+
+/// The joints that have an angle, in the order of the account.
+fn joints<M: Mechanism>() -> impl Iterator<Item = usize> {
+    let joints = M::REPORT.joints.iter().enumerate();
+    joints.filter_map(|(joint, info)| info.has_angle.then_some(joint))
+}
+
+/// The place of a joint in the account.
+pub(crate) fn place_of<M: Mechanism>(joint: usize) -> Option<usize> {
+    joints::<M>().position(|other| other == joint)
+}
+
+/// Which of the angles that differ by turns is nearest to another one (rad).
+pub(crate) fn nearest<S: Scalar>(angle: S, to: S) -> S {
+    let turns = (to - angle) * S::constant(TAU.recip());
+    let whole = turns
+        .abs()
+        .select(S::constant(HALF), S::zero(), turns.round());
+    whole.fused(S::constant(TAU), angle)
+}
+
+/// The angle of a joint (rad) over all turns that the state has counted.
+pub(crate) fn angle<S: Scalar, M: Mechanism>(
+    constants: &M::Constants<S>,
+    bodies: &M::State<S>,
+    joint: usize,
+) -> S {
+    let parts = M::joint_angle(constants, bodies, joint);
+    let last = place_of::<M>(joint).and_then(|place| bodies.turns().get(place).copied());
+    counted(&parts, last)
+}
+
+/// The same of its parts, near to what was counted last.
+fn counted<S: Scalar>(parts: &AngleParts<S>, last: Option<S>) -> S {
+    match (parts.turns, last) {
+        (None, Some(last)) => nearest(parts.angle(), last),
+        _ => parts.angle(),
+    }
+}
+
+/// Says of a joint's angle (rad) over all turns what it is.
+pub(crate) fn set<S: Scalar, M: Mechanism, X: Vector<S>>(state: &mut X, joint: usize, angle: S) {
+    let place = place_of::<M>(joint);
+    if let Some(counted) = place.and_then(|place| state.turns_mut().get_mut(place)) {
+        *counted = angle;
+    }
+}
+
+/// Takes over what another state has counted.
+#[inline(always)]
+pub(crate) fn copy<S: Scalar, X: Vector<S>, Y: Vector<S>>(from: &X, to: &mut Y) {
+    let counted = from.turns();
+    if let Some(own) = to.turns_mut().get_mut(..counted.len()) {
+        own.copy_from_slice(counted);
+    }
+}
+
+/// Takes over what a state has counted that was left some time (s) ago. How far (rad) angles may
+/// have turned since they were counted: beyond [`FAR`] they are to be counted, by [`count`].
+#[inline]
+pub(crate) fn carry<S: Scalar, X: MovingState<S>>(from: &X, time: S, to: &mut X) -> S {
+    let Some(&since) = from.turns().last() else {
+        return S::zero();
+    };
+    let speed = |state: &X| {
+        let rates = state.rates_slice().iter();
+        rates.fold(S::zero(), |sum, rate| sum + rate.abs())
+    };
+    // The greater of both.
+    let speed = -(-speed(from)).min(-speed(to));
+    let turned = speed.fused(time.abs(), since);
+    copy(from, to);
+    if let Some(since) = to.turns_mut().last_mut() {
+        *since = turned;
+    }
+    turned
+}
+
+/// Brings the account of bodies up to date that were left some time (s) ago. Whether it is known:
+/// rates hardly differ, so that their mean tells the turns.
+#[inline]
+pub(crate) fn follow<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    from: &M::State<S>,
+    time: S,
+    to: &mut M::State<S>,
+) -> bool {
+    let is_far = carry(from, time, to) > S::constant(FAR);
+    !is_far || count::<S, M>(constants, from, time, to)
+}
+
+/// Counts all angles of a state that was reached from another one in some time (s); whether they
+/// are known.
+#[cold]
+#[inline(never)]
+pub(crate) fn count<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    from: &M::State<S>,
+    time: S,
+    to: &mut M::State<S>,
+) -> bool {
+    let mut is_sure = true;
+    for (place, joint) in joints::<M>().enumerate() {
+        let before = M::joint_angle(constants, from, joint);
+        let after = M::joint_angle(constants, to, joint);
+        let begin = counted(&before, from.turns().get(place).copied());
+        let mean = S::constant(0.5) * (before.rate + after.rate);
+        let end = counted(&after, Some(mean.fused(time, begin)));
+        let spread = (after.rate - before.rate) * time;
+        let is_wide = spread.abs() > S::constant(FRAC_PI_2);
+        is_sure &= after.turns.is_some() || !is_wide;
+        if let Some(counted) = to.turns_mut().get_mut(place) {
+            *counted = end;
+        }
+    }
+    if let Some(since) = to.turns_mut().last_mut() {
+        *since = S::zero();
+    }
+    is_sure
+}
