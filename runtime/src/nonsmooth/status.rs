@@ -109,6 +109,8 @@ pub(crate) struct Status<S> {
     pub(crate) fastest: S,
     /// The largest sum of the sizes of the terms of its rate so far.
     pub(crate) largest: S,
+    /// The farthest from both limits that it was seen so far.
+    pub(crate) farthest: S,
     pub(crate) impact: Option<Impact<S>>,
     /// An angle that wraps, at the last look, and at the one that is under way.
     pub(crate) turning: Option<Turning<S>>,
@@ -214,6 +216,7 @@ impl<S: Real> Status<S> {
             is_found: false,
             fastest: S::zero(),
             largest: S::zero(),
+            farthest: S::zero(),
             impact: None,
             turning: None,
             ahead: None,
@@ -235,6 +238,11 @@ impl<S: Real> Status<S> {
         self.is_asked = false;
         self.has_left = reading > two * floor;
         self.band = floor.max(two * reading.abs());
+    }
+
+    /// Whether a free flight has ended that never left the limit by more than round-off.
+    pub(super) fn has_not_flown(&self) -> bool {
+        self.mode == InteractionMode::Free && self.is_found && !self.has_left
     }
 
     /// Whether the mode ends where the next reading is this one.
@@ -263,6 +271,9 @@ impl<S: Real> Status<S> {
     /// Goes on with the last reading, by which the mode does not end.
     pub(crate) fn go_on(&mut self) {
         self.has_left |= self.reading > self.band;
+        if self.mode == InteractionMode::Free {
+            self.farthest = self.farthest.max(self.reading);
+        }
         self.turning = self.ahead.take().or(self.turning);
     }
 }
