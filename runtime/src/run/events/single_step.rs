@@ -10,7 +10,8 @@ use crate::measure::view::View;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::run::events::root::locate;
-use crate::run::events::watch::{Crossing, Watch, looks};
+use crate::run::events::sizes::{round_off, shaken};
+use crate::run::events::watch::{Crossing, Reading, Watch, looks};
 use crate::run::stepper::Stepper;
 
 /// The part of a step after which the motion says on which side of zero a reading is.
@@ -88,7 +89,16 @@ where
         let mut sign = watch;
         let (zero, one) = (S::zero(), S::one());
         let first = S::constant(FIRST_LOOK);
-        sign.begin([read(zero)?, read(first)?]);
+        let here = read(zero)?;
+        let beside = [1.0, -1.0].map(|way| {
+            let (time, bodies) = shaken::<S, M>(time, &self.bodies_within(&step, zero), way);
+            reading(&self.dynamics.view(time, &bodies))
+        });
+        sign.begin(Reading {
+            here,
+            ahead: read(first)?,
+            round_off: round_off(here, beside),
+        });
         let mut before = zero;
         let mut found = None;
         for part in looks(zero, one, true) {
