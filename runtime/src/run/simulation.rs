@@ -496,6 +496,7 @@ where
             steps: 0,
             counts: Counts::default(),
             deferred: Deferred::new(),
+            gone: None,
         };
         run.go(&self.integrator, companion, (start, end), last_good, past)
     }
