@@ -334,8 +334,9 @@ where
         mut take: impl FnMut(&mut Watch<S>, Reading<S>),
     ) -> Result<(), Fault> {
         let ahead = self.ahead(hybrid, time, state);
-        let beside = [1.0, -1.0].map(|way| shaken::<S, M>(time, state, way));
         let dynamics = &self.dynamics;
+        let shaken = |way| shaken::<S, M>(dynamics.constants(), time, state, way);
+        let beside = [shaken(1.0), shaken(-1.0)];
         hybrid.list.each(&mut |happening| {
             if happening.watch().is_none() {
                 return Ok(());

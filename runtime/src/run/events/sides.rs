@@ -339,7 +339,7 @@ where
         readings: &M::Parameters<S>,
     ) -> M::Parameters<S> {
         let beside = [1.0, -1.0].map(|way| {
-            let (time, bodies) = shaken::<S, M>(time, bodies, way);
+            let (time, bodies) = shaken::<S, M>(self.constants(), time, bodies, way);
             self.switches(time, &bodies)
         });
         let mut digits = *readings;

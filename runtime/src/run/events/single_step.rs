@@ -91,7 +91,9 @@ where
         let first = S::constant(FIRST_LOOK);
         let here = read(zero)?;
         let beside = [1.0, -1.0].map(|way| {
-            let (time, bodies) = shaken::<S, M>(time, &self.bodies_within(&step, zero), way);
+            let bodies = self.bodies_within(&step, zero);
+            let constants = self.dynamics.constants();
+            let (time, bodies) = shaken::<S, M>(constants, time, &bodies, way);
             reading(&self.dynamics.view(time, &bodies))
         });
         sign.begin(Reading {

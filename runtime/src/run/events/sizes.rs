@@ -4,7 +4,7 @@
 //! state is changed in its last digits. A little of a motion is a part of the length of the
 //! mechanism, of a radian, or of the time in which it goes that far.
 
-use crate::constraints::extent::{farthest, largest};
+use crate::constraints::extent::{extent, farthest, largest};
 use crate::constraints::row_units::characteristic_length;
 use crate::math::scalar::Real;
 use crate::math::vec3::{norm, read};
@@ -39,8 +39,10 @@ pub(super) fn round_off<S: Real>(here: S, beside: [S; 2]) -> S {
 }
 
 /// A time and a state with every number changed in its last digits, by as much as the largest of
-/// its kind lets it, and without a pattern that a mechanism could share; `way` is 1 or -1.
+/// its kind lets it, and without a pattern that a mechanism could share; `way` is 1 or -1. A
+/// position near zero is a sum of lengths.
 pub(super) fn shaken<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
     time: S,
     state: &M::State<S>,
     way: f64,
@@ -55,7 +57,9 @@ pub(super) fn shaken<S: Real, M: Mechanism>(
             spin = spin.max(largest(&read::<S, 3>(velocities, body.velocity + 3)));
         }
     }
-    let position = farthest(M::REPORT.bodies, coordinates);
+    let extent = extent::<S, M>(constants, state);
+    let position = extent.max(farthest(M::REPORT.bodies, coordinates));
+    let speed = speed.max(spin * extent);
     let places = shaken.coordinates_mut().as_mut_slice();
     for (place, x) in places.iter_mut().enumerate() {
         let size = M::REPORT.bodies.iter().find_map(|body| match body.kind {
