@@ -225,6 +225,11 @@ impl<S: Real> Watch<S> {
             });
         }
         self.last = Some(time);
+        if self.is_at_zero() {
+            // It never left its round-off, of which the whole reading then is a part.
+            let scale = reading.abs().quotient(S::EPSILON.sqrt());
+            self.scale = self.scale.max(scale);
+        }
         self.zero = S::zero();
         self.root = Some(self.root.map_or(time, |root| root.min(time)));
         self.reading = reading;
