@@ -1,6 +1,7 @@
 //! Whether a run may begin where it is told to.
 
-use crate::constraints::extent::{largest, resolution};
+use crate::constraints::apart::reach;
+use crate::constraints::extent::resolution;
 use crate::constraints::row_units::{RowUnits, characteristic_length};
 use crate::constraints::rows::Rows;
 use crate::constraints::side::check_sides;
@@ -48,13 +49,13 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
         }
     }
     let phi_rate = constraint_rates::<S, M>(constants, time, state);
-    let fastest = largest(state.velocities().as_slice());
+    let fastest = reach::<S, M>(state.velocities(), length).size;
     for (row, (&rate, &factor)) in phi_rate.as_slice().iter().zip(rows.factors()).enumerate() {
         let is_length = rows.is_length(row);
         let violation = rate.abs() * factor;
         let opens = violation * duration > inexact * size(is_length);
         // Small beside the velocities in lengths of the mechanism, it is a number of few digits.
-        if opens && violation > inexact * fastest * size(is_length).min(S::one()) {
+        if opens && violation > inexact * fastest * size(is_length) {
             let quantity = if is_length {
                 Quantity::Speed
             } else {

@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 
 use crate::assembly::free_motion::FREE;
 use crate::assembly::subtree::{Subtree, Twist, orientation_of};
+use crate::constraints::extent::resolution;
 use crate::error::Fault;
 use crate::math::quaternion::{conjugate, normalised, product};
 use crate::math::scalar::Real;
@@ -11,6 +12,9 @@ use crate::math::vec3::square;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::turns;
 use crate::state::vector::{Array, StateParts, Vector};
+
+/// What a displacement may miss by, in last digits of positions.
+const DIGITS: f64 = 64.0;
 
 impl<S: Real, M: Mechanism> Subtree<'_, S, M> {
     /// Sets the angle (rad).
@@ -37,10 +41,12 @@ impl<S: Real, M: Mechanism> Subtree<'_, S, M> {
     /// Sets the displacement (m).
     pub(crate) fn set_displacement(mut self, displacement: S) -> Result<M::State<S>, Fault> {
         let direction = self.direction()?;
-        self.displace(&direction, displacement - self.displacement());
+        let way = displacement - self.displacement();
+        self.displace(&direction, way);
         let left = displacement - self.displacement();
-        let size = S::one() + displacement.abs();
-        if left.abs() > S::EPSILON.sqrt() * size {
+        let size = way.abs().max(displacement.abs());
+        let round_off = S::constant(DIGITS) * resolution::<S, M>(&self.state);
+        if left.abs() > S::EPSILON.sqrt().fused(size, round_off) {
             // Its definition's displacement is not along the motion.
             return Err(self.holds());
         }

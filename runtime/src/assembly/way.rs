@@ -8,7 +8,7 @@
 use super::set::Set;
 use crate::constraints::apart::reach;
 use crate::constraints::frames::{axes_of, carrier_of, centre_of, hanging_point};
-use crate::constraints::newton::compliant;
+use crate::constraints::newton::compliant_by_heaviest;
 use crate::constraints::retract::displaced;
 use crate::constraints::rows::Rows;
 use crate::error::Fault;
@@ -40,9 +40,13 @@ const HALVINGS: i32 = 24;
 /// Steps of a way: some hundred turns.
 const STEPS: usize = 5000;
 
-/// What a motion that joints forbid keeps of a load's work on the free bodies, by the compliances:
-/// the limit between forbidden and free.
-const FORBIDDEN: f64 = 1e-6;
+/// How often a motion is projected onto what the constraints leave free: each time compliances
+/// leave less of what they forbid, and the masses of the bodies matter less.
+const PROJECTIONS: usize = 3;
+
+/// What the last projection keeps of the work of a load on a motion that joints forbid: the limit
+/// between forbidden and free.
+const FORBIDDEN: f64 = 0.1;
 
 /// Motions that are set together and can be told apart.
 const SEARCHES: usize = 12;
@@ -146,6 +150,9 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
                 return Err(self.ends(share));
             }
         }
+        if is_free == Some(true) {
+            self.close();
+        }
         let missed = self.missed(&self.state, one);
         let may_be_free = is_free == Some(true) || self.set.may_be_free();
         if may_be_free && self.set.is_clean() && missed > S::constant(MISSED) {
@@ -162,6 +169,23 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
             iterations: self.iterations,
             passed: self.passage.passed(),
         })
+    }
+
+    /// Goes on to the last digits at the end of the way, where what was set is kept: a correction by
+    /// the least movement in the metric of the mass would move the lightest body of all.
+    fn close(&mut self) {
+        let mut last = S::constant(SMALL).max(S::EPSILON.sqrt());
+        for _ in 0..CORRECTIONS {
+            let step = self.newton_step(&self.state, S::one());
+            let size = reach::<S, M>(&step, self.length).size;
+            let helps = size < S::constant(0.5) * last;
+            if !helps {
+                break;
+            }
+            self.iterations += 1;
+            self.state = displaced::<S, M>(self.constants, &self.state, &step, S::one());
+            last = size;
+        }
     }
 
     /// What is missed of what was set (rad, or lengths of the mechanism).
@@ -262,7 +286,8 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
     fn newton_step(&self, state: &M::State<S>, share: S) -> M::Velocities<S> {
         let constants = self.constants;
         let rows = Rows::<S, M>::at(constants, self.time, state);
-        let (coefficients, factors) = compliant::<S, M>(constants, &rows, state, S::EPSILON.sqrt());
+        let (coefficients, factors) =
+            compliant_by_heaviest::<S, M>(constants, &rows, state, S::EPSILON.sqrt());
         let mut lower = M::constraints(constants, self.time, state);
         let left = S::one() - share;
         let places = lower.as_mut_slice().iter_mut();
@@ -276,21 +301,32 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
             return step;
         }
         let level = M::Multipliers::<S>::zeros();
+        let mass = M::mass(constants);
+        // What a load moves over what the constraints leave free, and its work there by the last
+        // projection and by the one before.
         let free = |load: &M::Velocities<S>| {
-            M::solve::<S, Compliant>(constants, &coefficients, &factors, load, &level).0
+            let mut momentum = *load;
+            let mut motion = none;
+            let mut works = [S::zero(); 2];
+            for _ in 0..PROJECTIONS {
+                let way = M::solve::<S, Compliant>;
+                motion = way(constants, &coefficients, &factors, &momentum, &level).0;
+                works = [product(load, &motion), works[0]];
+                momentum = motion;
+                let places = momentum.as_mut_slice().iter_mut().zip(mass.as_slice());
+                places.for_each(|(place, &mass)| *place = *place * mass);
+            }
+            (motion, works)
         };
         // Conjugate gradients for the least squares of what is left, over what the constraints
         // leave free.
-        let mass = M::mass(constants);
         let mut left = self.set.left(constants, state, share, self.length);
         add(&mut left, &self.relative(state, &step), -S::one());
         let load = self.load(state, &left);
-        let mut descent = free(&load);
-        let mut decrease = product(&load, &descent);
+        let (mut descent, [mut decrease, mut before]) = free(&load);
         let mut way = descent;
         for _ in 0..SEARCHES {
-            let unhindered = load_over(&self.load(state, &left), &mass);
-            let is_free = decrease > S::constant(FORBIDDEN) * unhindered;
+            let is_free = decrease > S::constant(FORBIDDEN) * before;
             if !is_free {
                 break;
             }
@@ -302,10 +338,10 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
             add(&mut step, &way, factor);
             add(&mut left, &moved, -factor);
             let load = self.load(state, &left);
-            descent = free(&load);
-            let next = product(&load, &descent);
-            let conjugate = next.quotient(decrease);
-            decrease = next;
+            let works;
+            (descent, works) = free(&load);
+            let conjugate = works[0].quotient(decrease);
+            [decrease, before] = works;
             let mut new = descent;
             add(&mut new, &way, conjugate);
             way = new;
@@ -421,10 +457,4 @@ fn add<S: Real, A: Array<S>>(to: &mut A, a: &A, factor: S) {
 fn product<S: Real, A: Array<S>>(a: &A, b: &A) -> S {
     let pairs = a.as_slice().iter().zip(b.as_slice());
     pairs.fold(S::zero(), |sum, (&a, &b)| a.fused(b, sum))
-}
-
-/// `a . M^-1 a`: the work of a load on bodies without joints.
-fn load_over<S: Real, A: Array<S>>(a: &A, mass: &A) -> S {
-    let pairs = a.as_slice().iter().zip(mass.as_slice());
-    pairs.fold(S::zero(), |sum, (&a, &mass)| (a * a).quotient(mass) + sum)
 }

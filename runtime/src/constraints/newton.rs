@@ -308,13 +308,38 @@ pub(crate) fn compliant<S: Real, M: Mechanism>(
     state: &M::State<S>,
     part: S,
 ) -> (M::Coefficients<S>, M::Factors<S>) {
+    factorised(constants, rows, state, (part, &rows.compliances(part)))
+}
+
+/// The same with a part of what each row yields by the heaviest of its bodies: so a light body
+/// carries a heavy one. What round-off resolves of the whole row is the least.
+pub(crate) fn compliant_by_heaviest<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    rows: &Rows<S, M>,
+    state: &M::State<S>,
+    part: S,
+) -> (M::Coefficients<S>, M::Factors<S>) {
+    let mut compliances = rows.compliances(least());
+    let heaviest = rows.yields_of_heaviest(constants, state);
+    let pairs = compliances.as_mut_slice().iter_mut();
+    for (compliance, &heaviest) in pairs.zip(heaviest.as_slice()) {
+        *compliance = compliance.max(part * heaviest);
+    }
+    factorised(constants, rows, state, (part, &compliances))
+}
+
+fn factorised<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    rows: &Rows<S, M>,
+    state: &M::State<S>,
+    (part, compliances): (S, &M::Multipliers<S>),
+) -> (M::Coefficients<S>, M::Factors<S>) {
     let stabilisation = Stabilisation {
         rate: S::zero(),
         position: S::zero(),
         compliance: part,
     };
-    let compliances = rows.compliances(part);
-    let coefficients = M::coefficients_by_row(constants, &stabilisation, &compliances);
+    let coefficients = M::coefficients_by_row(constants, &stabilisation, compliances);
     let (factors, _) = M::factor::<S, Compliant>(constants, &coefficients, rows.time, state);
     (coefficients, factors)
 }

@@ -83,7 +83,7 @@ pub(super) fn say(fault: &Fault, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         }
         Fault::NoMode { joint, time } => write!(
             f,
-            "at {} s no choice of modes satisfies all interactions, that on `{joint}` among them: an engaged dog may hold what is driven, \
+            "at {} s no choice of modes satisfies all interactions, that on `{joint}` among them: a stop or an engaged dog may hold what is driven, \
              or numbers are out of range",
             Given(time)
         ),

@@ -138,7 +138,13 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             let share = S::constant(f64::from(step) / f64::from(steps));
             let wanted = SVector::from_fn(|row, _| way[row].fused(share, begin[row]));
             let wanted = if step == steps { positions } else { wanted };
-            let next = self.stepped(&state, &wanted)?;
+            let next = self.stepped(&state, &wanted).map_err(|fault| match fault {
+                Fault::WayEnds { joint, share } => Fault::WayEnds {
+                    joint,
+                    share: (f64::from(step - 1) + share) / f64::from(steps),
+                },
+                fault => fault,
+            })?;
             let [before, mut bodies] = [&state, &next].map(|state| self.bodies(state));
             turns::count::<S, M>(&self.constants, &before, S::zero(), &mut bodies);
             state = next;

@@ -161,6 +161,13 @@ macro_rules! controlled {
                 Some(self.tolerance)
             }
 
+            fn for_length(&self, length: S) -> Self {
+                Self {
+                    tolerance: self.tolerance.for_length(length),
+                    ..*self
+                }
+            }
+
             fn companion(&self, duration: S) -> Option<Self> {
                 Some(Self {
                     tolerance: self.tolerance.of_companion(),

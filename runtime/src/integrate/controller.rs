@@ -41,12 +41,31 @@ impl<S: Real> Tolerance<S> {
     }
 }
 
-/// `relative = 1e-6`, `absolute = 1e-9`.
+/// `relative = 1e-6`, `absolute = 1e-9`. Of a mechanism that is smaller than a centimetre, a run
+/// takes 1e-7 of its length in place of the absolute one.
 impl<S: Real> Default for Tolerance<S> {
     fn default() -> Self {
         Self {
             relative: S::constant(1e-6),
             absolute: S::constant(1e-9),
+        }
+    }
+}
+
+/// The default of the absolute tolerance over the length of a mechanism, at the most: positions of
+/// a mechanism of any size are then right to a small part of it.
+const OF_LENGTH: f64 = 1e-7;
+
+impl<S: Real> Tolerance<S> {
+    /// The same for a mechanism of a length (m): the default goes with it.
+    pub(super) fn for_length(self, length: S) -> Self {
+        let default = Self::default();
+        if self != default {
+            return self;
+        }
+        Self {
+            absolute: default.absolute.min(S::constant(OF_LENGTH) * length),
+            ..default
         }
     }
 }

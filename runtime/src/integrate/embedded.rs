@@ -121,6 +121,13 @@ impl<S: Real, K: EmbeddedPair<S>> Method<S> for Adaptive<S, K> {
         Some(self.tolerance)
     }
 
+    fn for_length(&self, length: S) -> Self {
+        Self {
+            tolerance: self.tolerance.for_length(length),
+            ..*self
+        }
+    }
+
     fn companion(&self, duration: S) -> Option<Self> {
         Some(Self {
             tolerance: self.tolerance.of_companion(),

@@ -274,6 +274,12 @@ pub trait Method<S: Real>: Copy + Debug {
         None
     }
 
+    /// The same method for a mechanism of such a length (m), which the default of a tolerance goes
+    /// with.
+    fn for_length(&self, _length: S) -> Self {
+        *self
+    }
+
     /// The same method for a second run over an interval of so many seconds, by which the error of
     /// the first is estimated ([`Simulation::verified`](crate::Simulation::verified)): with half
     /// the step, or with another tolerance and steps that pass over nothing longer than 1/256 of

@@ -12,8 +12,8 @@ use crate::math::scalar::{Real, Scalar as _};
 use crate::measure::load::NoForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::described::refuse_limits;
 use crate::mechanism::turns;
+use crate::nonsmooth::described::refuse_limits;
 use crate::run::stepper::end_of_step;
 
 impl<T, M, F, K, C, const L: usize> Ensemble<T, M, F, K, C, L>

@@ -14,9 +14,10 @@ use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Place};
 use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::efforts::refused;
 use crate::nonsmooth::loads::BearingLoads;
+use crate::nonsmooth::sizes::{ROUND_OFF, part};
 use crate::nonsmooth::slipping::Slipping;
 use crate::nonsmooth::status::{InteractionMode, Next, Tracked};
-use crate::nonsmooth::switch::{ROUND_OFF, no_mode, part, solved};
+use crate::nonsmooth::switch::{no_mode, solved};
 
 /// What was found at its capacity slips, to this part of it: more than the floor of a problem.
 const SLIPS: f64 = 1e-11;

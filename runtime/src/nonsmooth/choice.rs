@@ -8,10 +8,12 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors, Place};
 use crate::nonsmooth::capacities::Capacities;
 use crate::nonsmooth::columns::{Columns, Setting};
+use crate::nonsmooth::interaction::Law;
 use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::scene::Scene;
+use crate::nonsmooth::sizes::{AT_BOUND, ROUND_OFF, part};
 use crate::nonsmooth::status::{InteractionMode, Next, Tracked};
-use crate::nonsmooth::switch::{AT_BOUND, Motion, ROUND_OFF, part};
+use crate::nonsmooth::switch::Motion;
 use crate::state::vector::Array as _;
 
 /// Accelerations that are none, in `EPSILON` of what efforts bring about.
@@ -25,9 +27,6 @@ const TURNING: f64 = 1e-9;
 /// least so many `EPSILON`.
 const BLOCKED: f64 = 1e-9;
 const OF_BLOCKED: f64 = 1e4;
-
-/// Round-off of a gap, in `EPSILON` of its size.
-const OF_GAP: f64 = 16.0;
 
 /// The modes that follow, after impulses, from the solution without efforts of interactions.
 pub(crate) fn modes<S, M, F, C, const K: usize>(
@@ -287,7 +286,10 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let reading = self.reading(scene);
         let round_off = S::constant(ROUND_OFF) * S::EPSILON;
         let floor = match mode {
-            InteractionMode::Free => S::constant(OF_GAP) * S::EPSILON * self.size(scene),
+            InteractionMode::Free => match &self.interaction.law {
+                Law::Limits(limits) => self.round_off_of_gap(limits, scene),
+                Law::Friction(_) => S::zero(),
+            },
             InteractionMode::AtLower | InteractionMode::AtUpper => {
                 part::<S>(AT_BOUND, ROUND_OFF) * effort.abs().max(alone)
             }

@@ -35,6 +35,7 @@ pub(crate) mod place;
 pub(crate) mod quantity;
 mod remembered;
 pub(crate) mod scene;
+mod sizes;
 mod slipping;
 pub(crate) mod status;
 mod switch;

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use crate::forward::Forward;
 use crate::math::quaternion::{normalised, rotate};
 use crate::math::scalar::{Real, Scalar};
-use crate::math::vec3::{cross, minus, plus, read};
+use crate::math::vec3::{cross, minus, norm, plus, read};
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::{Located, Place};
@@ -83,6 +83,11 @@ impl<S: Scalar> PlaceOfPlane<S> {
 }
 
 impl<S: Real> PlaceOfPlane<S> {
+    /// How far its point is from where it is counted from (m).
+    pub(super) fn arm(&self) -> S {
+        norm(&self.point)
+    }
+
     /// Whether there is a normal.
     pub(crate) fn is_finite(&self) -> bool {
         let [a, b, c] = self.point;
@@ -122,7 +127,7 @@ impl At {
     }
 
     /// From the centre of mass of its body, in principal axes; global on the ground.
-    fn arm<S: Scalar, M: Mechanism>(self, constants: &M::Constants<S>) -> [S; 3] {
+    pub(super) fn arm<S: Scalar, M: Mechanism>(self, constants: &M::Constants<S>) -> [S; 3] {
         match self {
             Self::Body(_) => [S::zero(); 3],
             Self::Point(point) => M::named_point(constants, point),

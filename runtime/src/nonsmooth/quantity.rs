@@ -101,7 +101,7 @@ impl<S: Scalar> Quantity<S> {
     }
 
     /// Whether the velocities of a body count.
-    fn is_of<M: Mechanism>(&self, body: usize) -> bool {
+    pub(super) fn is_of<M: Mechanism>(&self, body: usize) -> bool {
         let of_joint = |reading: &JointReading| {
             let joint = M::REPORT.joints.get(reading.joint());
             joint.is_some_and(|joint| joint.bodies.contains(&Some(body)))

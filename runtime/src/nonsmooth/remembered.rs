@@ -46,6 +46,7 @@ impl<S: Real> Status<S> {
             &mut self.capacity,
             &mut self.fastest,
             &mut self.largest,
+            &mut self.farthest,
         ];
         for number in numbers {
             memory.number(number);

@@ -103,6 +103,8 @@ pub(crate) struct Status<S> {
     pub(crate) fastest: S,
     /// The largest sum of the sizes of the terms of its rate so far.
     pub(crate) largest: S,
+    /// The farthest from both limits that it was seen so far.
+    pub(crate) farthest: S,
     pub(crate) impact: Option<Impact<S>>,
     /// What may follow, and the mode before.
     pub(crate) next: Next<S>,
@@ -228,6 +230,7 @@ impl<S: Real> Status<S> {
             is_found: false,
             fastest: S::zero(),
             largest: S::zero(),
+            farthest: S::zero(),
             impact: None,
             next: Next::Without,
             before: InteractionMode::Free,
@@ -247,6 +250,11 @@ impl<S: Real> Status<S> {
         self.is_asked = false;
         self.has_left = reading > two * floor;
         self.band = floor.max(two * reading.abs());
+    }
+
+    /// Whether a free flight has ended that never left the limit by more than round-off.
+    pub(super) fn has_not_flown(&self) -> bool {
+        self.mode == InteractionMode::Free && self.is_found && !self.has_left
     }
 
     /// Whether the mode ends where the next reading is this one.
@@ -275,5 +283,8 @@ impl<S: Real> Status<S> {
     /// Goes on with the last reading, by which the mode does not end.
     pub(crate) fn go_on(&mut self) {
         self.has_left |= self.reading > self.band;
+        if self.mode == InteractionMode::Free {
+            self.farthest = self.farthest.max(self.reading);
+        }
     }
 }

@@ -1,6 +1,5 @@
 //! Impulses, where a mode ends or something else has changed.
 
-use crate::constraints::extent::farthest;
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
@@ -10,31 +9,9 @@ use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors};
 use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::interaction::{Friction, Law, Limits, Rest};
 use crate::nonsmooth::scene::Scene;
+use crate::nonsmooth::sizes::{AT_REST, ROUND_OFF, part};
 use crate::nonsmooth::status::{Impact, InteractionMode, Next, Tracked};
-use crate::state::vector::{Array, StateParts};
-
-/// A quantity within this part of its size of a limit is on it.
-const ON_LIMIT: f64 = 1e-9;
-
-/// Beyond a limit by more than this part of its size, it was put there.
-const BEYOND: f64 = 1e-6;
-
-/// A rate of less than this part of what it is the sum of is none.
-const AT_REST: f64 = 1e-11;
-
-/// Round-off of a reading, in `EPSILON` of what it is made of.
-pub(super) const ROUND_OFF: f64 = 64.0;
-
-/// The part of the capacity, or of the efforts at hand, below which an effort is at its bound.
-pub(super) const AT_BOUND: f64 = 1e-12;
-
-/// The least length (m) that a displacement is compared with.
-const LEAST: f64 = 1e-3;
-
-/// A part of a size, and at least so many `EPSILON` of it.
-pub(super) fn part<S: Real>(part: f64, digits: f64) -> S {
-    S::constant(part).max(S::constant(digits) * S::EPSILON)
-}
+use crate::state::vector::{Array, StateParts as _};
 
 /// How a quantity moves at an instant.
 pub(super) struct Motion<S> {
@@ -73,19 +50,6 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         }
     }
 
-    /// The size of what its value is compared with.
-    pub(super) fn size(&self, scene: &Scene<'_, S, M>) -> S {
-        let quantity = &self.interaction.quantity;
-        let coordinates = scene.bodies.coordinates().as_slice();
-        let lengths = farthest(M::REPORT.bodies, coordinates);
-        let size = quantity.value(scene).abs();
-        if quantity.is_angle() {
-            size.max(S::one())
-        } else {
-            size.max(lengths).max(S::constant(LEAST))
-        }
-    }
-
     /// The limit that the quantity is on, by its sign; the fault where it is beyond.
     fn limit(&self, limits: &Limits<S>, scene: &Scene<'_, S, M>) -> Result<Option<S>, Fault> {
         if self.interaction.is_dropped {
@@ -93,13 +57,12 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         }
         let status = self.status.get();
         let [lower, upper] = limits.bounds;
-        let size = self.size(scene);
-        let beyond = part::<S>(BEYOND, 1e4) * size;
+        let near = self.near(limits, scene);
         let value = self.interaction.quantity.value(scene);
         let gaps = [value - lower, upper - value];
         let is_lower = gaps[0] <= gaps[1];
         let gap = gaps[0].min(gaps[1]);
-        if gap < -beyond {
+        if gap < -near.held {
             return Err(Fault::BeyondLimit {
                 joint: self.interaction.name(),
                 value: value.to_f64(),
@@ -111,12 +74,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             InteractionMode::AtUpper => !is_lower,
             _ => status.is_found,
         };
-        let near = if is_held {
-            part::<S>(BEYOND, 1e4)
-        } else {
-            part::<S>(ON_LIMIT, ROUND_OFF)
-        };
-        let is_on = gap <= near * size;
+        let is_on = gap <= if is_held { near.held } else { near.free };
         let sign = if is_lower { S::one() } else { -S::one() };
         Ok(is_on.then_some(sign))
     }
@@ -195,6 +153,17 @@ where
             let terms = row.iter().zip(&impulses);
             motion.rate = terms.fold(motion.rate, |sum, (&w, &x)| w.fused(x, sum));
         }
+        for (index, tracked) in list.iter().enumerate() {
+            if let Some(sign) = at_limit[index]
+                && let Law::Limits(limits) = &tracked.interaction.law
+                && goes_on(sign, before[index], &motions[index])
+            {
+                let [lower, upper] = limits.bounds;
+                let limit = if sign > S::zero() { lower } else { upper };
+                let driven = against(setting, tracked.interaction.name(), limit.to_f64());
+                return Err(driven.unwrap_or_else(|| no_mode(setting, tracked)));
+            }
+        }
         report(setting, list, &impulses, &before, &motions);
     }
     // What is at rest now, to round-off.
@@ -260,8 +229,27 @@ where
     let chosen = core::array::from_fn(|other| other == index);
     let columns = Columns::of(setting, list, &chosen);
     let is_free = columns.is_ok_and(|columns| columns.delassus[index][index] > S::zero());
-    if !M::REPORT.time.constraints || is_free {
+    if is_free {
         return fault;
+    }
+    against(setting, joint, limit).unwrap_or(fault)
+}
+
+/// The fault of a driver that moves a joint on against its limit: of the one that moves fastest.
+#[cold]
+fn against<S, M, F, C>(
+    setting: &Setting<'_, S, M, F, C>,
+    joint: &'static str,
+    limit: f64,
+) -> Option<Fault>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    if !M::REPORT.time.constraints {
+        return None;
     }
     let by_time = setting.here(|scene| {
         let velocities = M::Velocities::<S>::zeros();
@@ -275,15 +263,13 @@ where
             fastest = (row, rate.abs());
         }
     }
-    match M::REPORT.joint_of(fastest.0) {
-        Some(driver) if fastest.1 > S::zero() => Fault::DrivenAgainst {
-            joint,
-            driver,
-            limit,
-            time: setting.saddle.time.to_f64(),
-        },
-        _ => fault,
-    }
+    let driver = M::REPORT.joint_of(fastest.0)?;
+    (fastest.1 > S::zero()).then(|| Fault::DrivenAgainst {
+        joint,
+        driver,
+        limit,
+        time: setting.saddle.time.to_f64(),
+    })
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
@@ -295,12 +281,20 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             Rest::Below(rate) => rate,
             Rest::Part(part) => part * fastest,
         };
-        if approach < least {
+        // What does not rise above round-off does not bounce.
+        if approach < least || self.status.get().has_not_flown() {
             S::zero()
         } else {
             limits.restitution
         }
     }
+}
+
+/// Whether an impulse has not stopped what approaches a limit: a driver moves it.
+fn goes_on<S: Real>(sign: S, before: S, after: &Motion<S>) -> bool {
+    let approaches = -(sign * before);
+    let half = S::constant(0.5) * approaches;
+    approaches > after.none() && -(sign * after.rate) > half
 }
 
 /// Leaves the impulses in the statuses.

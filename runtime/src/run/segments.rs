@@ -6,9 +6,7 @@ use core::ops::ControlFlow;
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{
-    Advance, Counts, Integration as _, Integrator, Method, System as _, TimeSpan,
-};
+use crate::integrate::{Advance, Counts, Integration as _, Integrator, System as _, TimeSpan};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
@@ -44,6 +42,8 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
     pub(crate) counts: Counts,
     /// A state that was reached since the bodies of the last good one.
     pub(crate) deferred: Deferred<C::State<S>>,
+    /// How fast (rad/s) a state moved that no correction could bring back.
+    pub(crate) gone: Option<S>,
 }
 
 /// A step that was taken, and looked into for the monitor.
@@ -499,7 +499,13 @@ where
         mut state: M::State<S>,
     ) -> Result<M::State<S>, Fault> {
         let constants = self.dynamics.constants();
-        let residual = stabilisation.stabilise(constants, time, &mut state)?;
+        let residual = match stabilisation.stabilise(constants, time, &mut state) {
+            Ok(residual) => residual,
+            Err(fault) => {
+                self.gone = Some(fastest::<S, M>(constants, &state));
+                return Err(fault);
+            }
+        };
         if let Some(monitor) = &mut self.monitor
             && residual > S::zero()
         {
@@ -543,50 +549,6 @@ where
             verification: None,
             monitor: self.monitor,
         }
-    }
-
-    /// A fault with what the run knows of its cause.
-    #[cold]
-    fn explained<I: Method<S>>(
-        &self,
-        integrator: &I,
-        fault: Fault,
-        last_good: (S, M::State<S>),
-    ) -> Fault {
-        /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5
-        /// up to about this over `a`, and grows for some time from somewhat less on.
-        const STABLE: f64 = 2.0;
-        /// Radians in a step that no motion has.
-        const BEYOND: f64 = 1e6;
-        let not_finite = matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite);
-        if not_finite
-            && let (Some(step), Some(rate)) = (
-                integrator.fixed_step(),
-                self.dynamics.formulation().decay_rate(),
-            )
-            && step * rate > S::constant(STABLE)
-        {
-            return Fault::StepTooLong {
-                step: step.to_f64(),
-                rate: rate.to_f64(),
-            };
-        }
-        // A step in which something turns by radians, or moves by lengths of the mechanism, is too
-        // long whatever came of it: pivots of such numbers may vanish, too.
-        let turned = match fault {
-            Fault::Singular { .. } => Some(BEYOND),
-            _ => not_finite.then_some(1.0),
-        };
-        let (constants, state) = (self.dynamics.constants(), &last_good.1);
-        if let (Some(turned), Some(step)) = (turned, integrator.fixed_step())
-            && step * fastest::<S, M>(constants, state) > S::constant(turned)
-        {
-            return Fault::Unstable {
-                step: step.to_f64(),
-            };
-        }
-        let absolute = integrator.tolerance().map(|tolerance| tolerance.absolute);
-        self.dynamics.explained(fault, absolute, last_good)
     }
 }
 

@@ -7,6 +7,7 @@ use core::ops::{ControlFlow, RangeInclusive};
 use crate::assembly::assembled;
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::projection::Projection;
+use crate::constraints::row_units::characteristic_length;
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
@@ -432,6 +433,9 @@ where
         let given = *dynamics.parameters();
         let forces = Heeding::new(&self.forces, &given);
         let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
+        let described = M::initial_state(dynamics.constants());
+        let length = characteristic_length::<S, M>(dynamics.constants(), &described);
+        let integrator = &self.integrator.for_length(length);
         if let Some(past) = past {
             take_values(&mut dynamics, past)?;
         }
@@ -473,11 +477,11 @@ where
         let monitor = self.is_monitored.then(|| {
             Monitor::new(&constants, last_good.0, &state)
                 .of_joints(C::keeps_equations)
-                .over(&self.integrator)
+                .over(integrator)
                 .decaying(self.formulation.decay_rate())
         });
         let companion = if self.is_verified {
-            let integrator = self.integrator.companion(end - start);
+            let integrator = integrator.companion(end - start);
             integrator
                 .map(|integrator| Companion::new(dynamics.clone(), integrator, (start, &state)))
         } else {
@@ -496,8 +500,9 @@ where
             steps: 0,
             counts: Counts::default(),
             deferred: Deferred::new(),
+            gone: None,
         };
-        run.go(&self.integrator, companion, (start, end), last_good, past)
+        run.go(integrator, companion, (start, end), last_good, past)
     }
 
     /// The start of a run over an interval (s) from a state, assembled where that is asked.

@@ -43,6 +43,36 @@ fn every_angle_of_a_crank_is_assembled_on_its_own_branch() {
     }
 }
 
+/// Masses are no matter of where bodies stand: a light crank takes along what it carries.
+#[test]
+fn what_was_set_is_kept_where_the_crank_is_light() {
+    for mass in [1e3, 1e-3, 1e-5, 1e-7, 1e-9] {
+        for angle in [0.3, -1.0, 2.5] {
+            let mut mechanism = CRANK_ROCKER.four_bar();
+            mechanism.mass = mass;
+            let handles = FourBar::HANDLES;
+            let mut state = mechanism.described_state::<f64>().expect("lengths");
+            mechanism
+                .set_angle(&mut state, handles.a, angle)
+                .expect("it carries the crank");
+            mechanism
+                .assemble(0.0, &mut state)
+                .unwrap_or_else(|fault| panic!("{mass} at {angle}: {fault}"));
+            let view = mechanism.view(0.0, &state).expect("finite");
+            let crank = wrapped(view.angle(handles.a) - angle).abs();
+            let rocker = CRANK_ROCKER.error(angle, view.angle(handles.d));
+            assert!(
+                crank < 1e-14,
+                "{mass} at {angle}: the crank is off by {crank:e}"
+            );
+            assert!(
+                rocker < 1e-13,
+                "{mass} at {angle}: the rocker is off by {rocker:e}"
+            );
+        }
+    }
+}
+
 #[test]
 fn a_small_turn_is_kept_as_well() {
     for angle in [1e-6, 1e-4, 2e-3, -0.02] {

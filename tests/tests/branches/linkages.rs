@@ -16,7 +16,13 @@ pub(crate) struct FourBar {
     y: f64,
     #[param]
     base: f64,
-    #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [crank_length / 2.0, 0.0, 0.0])]
+    /// Of the crank.
+    #[param]
+    pub(crate) mass: f64,
+    #[body(
+        mass = mass, inertia = [0.02 * mass, 0.02 * mass, 0.02 * mass],
+        position = [crank_length / 2.0, 0.0, 0.0]
+    )]
     crank: Body,
     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [crank_length, 0.0, 0.0])]
     coupler: Body,
@@ -99,7 +105,7 @@ impl Lengths {
 
     pub(crate) fn four_bar(self) -> FourBar {
         let [x, y] = self.pin();
-        FourBar::new(self.links[0], x, y, self.links[3]).expect("lengths")
+        FourBar::new(self.links[0], x, y, self.links[3], 1.0).expect("lengths")
     }
 
     pub(crate) fn driven(self) -> DrivenFourBar {

@@ -87,6 +87,40 @@ fn events_at_one_time_are_all_handled_whatever_the_first_one_does() {
     }
 }
 
+/// Instants that differ in their last digits, of events whose handlers move the mechanism.
+#[test]
+fn events_that_follow_each_other_in_the_last_digits_fire_once_and_in_order() {
+    let (ball, rail) = (Ball::default(), Ball::HANDLES.rail);
+    for (begin, spacing) in [(1e6, 1e-10), (1.7e9, 3e-7), (0.0, 1e-16)] {
+        for number in 1..=24 {
+            let first: f64 = begin + 0.37;
+            let second = first + spacing * f64::from(number);
+            let log = core::cell::RefCell::new(Vec::new());
+            let handled = |event: &mut holonom::run::Event<'_, f64, Ball>| {
+                log.borrow_mut().push((event.name(), event.time()));
+                event.set_displacement_rate(rail, 1.0)
+            };
+            ball.simulation(StandardLagrange, DormandPrince::default())
+                .on("second", Crossing::Rising, |s| s.time() - second, handled)
+                .on("first", Crossing::Rising, |s| s.time() - first, handled)
+                .run(begin..=begin + 0.5, every(0.5), |_| ())
+                .expect("it flies");
+            let log = log.into_inner();
+            assert_eq!(log.len(), 2, "{begin} {number}: {log:?}");
+            let is_same = first == second;
+            assert!(is_same || log[0].0 == "first", "{begin} {number}: {log:?}");
+            for (name, time) in log {
+                let wanted = if name == "first" { first } else { second };
+                let digits = (time - wanted).abs() / (wanted.next_up() - wanted);
+                assert!(
+                    digits <= 16.0,
+                    "{begin} {number}: {name} is off by {digits}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn an_event_at_the_end_of_a_step_or_of_the_run_is_found_once() {
     let ball = Ball::default();

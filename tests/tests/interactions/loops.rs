@@ -135,3 +135,26 @@ fn single_precision_comes_to_rest_as_well() {
         .expect("it rests");
     assert!(report.accepted > 10);
 }
+
+/// A driver does not give way to a stop: refused by name, and not as a start beyond it.
+#[test]
+fn a_driver_that_pushes_against_a_stop_is_refused() {
+    fn pushes<C: Coordinates<Belt>>(restitution: f64) {
+        let (belt, h) = (Belt::default(), Belt::HANDLES);
+        let stop = Interaction::limits(h.rollers.displacement(), [-9.0, 0.5]);
+        let error = belt
+            .simulation(StandardLagrange, DormandPrince::new(tight()))
+            .coordinates::<C>()
+            .interactions([stop.restitution(restitution)])
+            .run(0.0..=1.0, every(0.1), |_| ())
+            .expect_err("nothing stops the belt");
+        let Fault::NoMode { joint, time } = error.fault else {
+            panic!("{error}");
+        };
+        assert!(joint == "rollers" && (time - 0.5).abs() < 1e-9, "{error}");
+    }
+    for restitution in [0.0, 0.5] {
+        pushes::<Relative>(restitution);
+        pushes::<Absolute>(restitution);
+    }
+}

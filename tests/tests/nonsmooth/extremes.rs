@@ -79,12 +79,72 @@ fn falls<C: Coordinates<Ball>>(mass: f64, from: f64, restitution: f64) {
 #[test]
 fn a_ball_falls_whatever_it_weighs_and_from_wherever() {
     for mass in [1e-6, 1.0, 1e6] {
-        for from in [1e-3, 1.0, 1e3] {
+        for from in [1e-10, 1e-3, 1.0, 1e3] {
             for restitution in [0.0, 0.6, 1.0] {
                 falls::<Relative>(mass, from, restitution);
                 falls::<Absolute>(mass, from, restitution);
             }
         }
+    }
+}
+
+/// Bounces down to where round-off ends them, in single precision.
+#[test]
+fn a_ball_falls_by_micrometres_in_single_precision() {
+    for from in [1e-5, 3e-6, 1e-7] {
+        let (ball, h) = (Ball::new(2.0, from).expect("acceptable"), Ball::HANDLES);
+        let fall = (2.0 * from / GRAVITY).sqrt();
+        let relative = 1e-4;
+        let absolute = relative * 1e-3 * from as f32;
+        let integrator = DormandPrince::new(Tolerance { relative, absolute });
+        let bounds = [-from as f32, f32::INFINITY];
+        let floor = Interaction::limits(h.rail.displacement(), bounds).restitution(0.5);
+        let span = 0.0..=(3.3 * fall) as f32;
+        Simulation::new(&ball, StandardLagrange, integrator)
+            .coordinates::<Relative>()
+            .interactions([floor])
+            .run(span, every((0.1 * fall) as f32), |sample| {
+                let found = f64::from(sample.pose(h.ball).position.z) / from;
+                let wanted = height(f64::from(sample.time()) / fall, 0.5);
+                // The bounces that are left out are lower than a ten thousandth.
+                assert!((found - wanted).abs() < 2e-4, "{from}: {found} {wanted}");
+                assert!(found > -1e-5, "{from}: {found}");
+            })
+            .unwrap_or_else(|error| panic!("{from}: {error}"));
+    }
+}
+
+/// Between stops a nanometre apart, at a metre from where positions are counted and at none.
+#[test]
+fn stops_may_be_a_nanometre_apart() {
+    for (at, gap) in [(0.0, 1e-9), (0.0, 1e-6), (1.0, 1e-6), (1.0, 1e-9)] {
+        let (ball, h) = (Ball::new(2.0, 1.0).expect("acceptable"), Ball::HANDLES);
+        let mut start = ball.described_state().expect("described");
+        ball.set_displacement(&mut start, h.rail, at + 0.5 * gap)
+            .expect("free");
+        let stops = Interaction::limits(h.rail.displacement(), [at, at + gap]).restitution(0.5);
+        let relative = 1e-10;
+        let absolute = 1e-3 * relative * gap;
+        let fall = (gap / GRAVITY).sqrt();
+        let mut beyond = 0.0_f64;
+        let report = ball
+            .simulation(
+                StandardLagrange,
+                DormandPrince::new(Tolerance { relative, absolute }),
+            )
+            .initial_state(start)
+            .interactions([stops])
+            .run(0.0..=5.0 * fall, every(0.01 * fall), |sample| {
+                let above = sample.displacement(h.rail) - at;
+                beyond = beyond.max(-above).max(above - gap);
+            })
+            .unwrap_or_else(|error| panic!("{at}, {gap}: {error}"));
+        // Round-off of the metre.
+        assert!(beyond < 1e-14, "{at}, {gap}: {beyond:e}");
+        let view = ball.view(report.time, &report.state).expect("finite");
+        let left = view.displacement(h.rail) - at;
+        assert!(left.abs() < 1e-14, "{at}, {gap}: {left:e}");
+        assert!(report.warnings().is_empty(), "{}", report.warnings());
     }
 }
 

@@ -2,6 +2,7 @@
 //! and 1000 km from it, with the defaults of every formulation: its motion is the same in
 //! proportion, or the run refuses, or its report warns of it.
 
+use holonom::Warning;
 use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use nalgebra::Vector3;
@@ -182,6 +183,10 @@ fn sweep<M: Scaled, F: Formulation<f64>>(method: F, judge: Vector3<f64>) {
                     if !warnings.is_empty() {
                         warned += 1;
                     }
+                    // The default goes with the size.
+                    let mut all = warnings.into_iter();
+                    let coarse = |warning| matches!(warning, Warning::CoarseTolerance { .. });
+                    assert!(!all.any(coarse), "{scale:?} {method:?}: {warnings}");
                     assert!(
                         error <= RIGHT || !warnings.is_empty(),
                         "{scale:?} {method:?}, projected: {projected}: off by {error:e} of the size without a word"

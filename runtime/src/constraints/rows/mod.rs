@@ -414,6 +414,29 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         rates.fold(S::zero(), S::max)
     }
 
+    /// What each row yields to a unit load by the body of it that yields least.
+    pub(crate) fn yields_of_heaviest(
+        &self,
+        constants: &M::Constants<S>,
+        state: &M::State<S>,
+    ) -> M::Multipliers<S> {
+        let jacobian = M::jacobian(constants, self.time, state);
+        let mass = M::mass(constants);
+        let mut least = self.stiffness;
+        for block in M::REPORT.blocks {
+            let mut own = M::Multipliers::<S>::zeros();
+            let [mut force, mut moment] = [own; 2];
+            let places = [&mut force, &mut moment, &mut own].map(|array| array.as_mut_slice());
+            let block = core::slice::from_ref(block);
+            add_blocks(block, jacobian.as_slice(), mass.as_slice(), places);
+            evened::<S, M>(&mut own);
+            let rows = least.as_mut_slice().iter_mut().zip(own.as_slice());
+            rows.filter(|(_, own)| **own > S::zero())
+                .for_each(|(least, &own)| *least = least.min(own));
+        }
+        least
+    }
+
     /// Compliances of the rows: a part of what each yields to a unit load; any positive number for
     /// a row that vanishes.
     pub(crate) fn compliances(&self, part: S) -> M::Multipliers<S> {

@@ -3,13 +3,11 @@
 use core::ops::ControlFlow;
 
 use crate::assembly::consistent_start::check_start;
-use crate::constraints::extent::largest;
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::Integrator;
 use crate::math::scalar::Real;
-use crate::math::vec3::read;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
@@ -18,13 +16,11 @@ use crate::nonsmooth::status::Tracked;
 use crate::run::companion::Companion;
 use crate::run::events::context::Event;
 use crate::run::events::list::{Happening, Hybrid};
-use crate::run::events::watch::Watch;
+use crate::run::events::sizes::{ahead, rate, round_off, shaken};
+use crate::run::events::watch::{Reading, Watch};
 use crate::run::sample::Sample;
 use crate::run::segments::Run;
 use crate::state::vector::{Array, StateParts, Vector as _};
-
-/// A way (m, rad) that is little.
-const LITTLE: f64 = 1e-6;
 
 /// What handlers and controllers have done at an instant.
 #[derive(Clone, Copy)]
@@ -38,9 +34,11 @@ struct Done {
 }
 
 /// What is called at an instant.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Called {
-    Handlers,
+#[derive(Clone, Copy, PartialEq)]
+enum Called<S> {
+    /// Those of the events that pass their zeros at a time (s): at the instant, or by its round-off
+    /// before it.
+    Handlers(S),
     Controllers,
 }
 
@@ -69,8 +67,8 @@ where
             self.stand(&mut hybrid, *time, state, true)?;
         }
         self.account(before, *time, state);
-        self.read_all(&mut hybrid, *time, state, |watch, readings| {
-            watch.begin(readings);
+        self.read_all(&mut hybrid, *time, state, |watch, reading| {
+            watch.begin(reading);
         })?;
         self.hybrid = Some(hybrid);
         if done.stops {
@@ -158,8 +156,8 @@ where
             stops: false,
         };
         if is_found {
-            self.read_all(hybrid, time, state, |watch, [reading, _]| {
-                watch.correct(reading);
+            self.read_all(hybrid, time, state, |watch, reading| {
+                watch.correct(reading.here, reading.round_off);
             })?;
         }
         hybrid.is_switched = false;
@@ -168,7 +166,7 @@ where
             self.stand(hybrid, time, state, true)?;
         }
         if is_found {
-            let handled = self.call(hybrid, Called::Handlers, time, state)?;
+            let handled = self.call_handlers(hybrid, time, state)?;
             if handled.changed {
                 self.stand(hybrid, time, state, handled.moved)?;
                 if self.switch(hybrid, time, state, true)? {
@@ -190,8 +188,8 @@ where
         }
         if is_found {
             hybrid.is_fresh = true;
-            self.read_all(hybrid, time, state, |watch, readings| {
-                watch.settle(readings, done.moved);
+            self.read_all(hybrid, time, state, |watch, reading| {
+                watch.settle(reading, done.moved);
             })?;
         }
         self.account(before, time, state);
@@ -212,11 +210,47 @@ where
         M::kinetic_energy(constants, state) + M::potential_energy(constants, time, state)
     }
 
+    /// Calls the handlers of all events that were found, in the order in which these pass their
+    /// zeros, and of those that do at once in the order in which they were given.
+    fn call_handlers(
+        &mut self,
+        hybrid: &mut Hybrid<'_, S, M>,
+        time: S,
+        state: &mut M::State<S>,
+    ) -> Result<Done, Fault> {
+        let mut done = Done {
+            moved: false,
+            changed: false,
+            stops: false,
+        };
+        let mut handled: Option<S> = None;
+        loop {
+            let mut next: Option<S> = None;
+            hybrid.list.each(&mut |happening| {
+                let root = happening.watch().and_then(|watch| watch.root());
+                let root = root.filter(|&root| handled.is_none_or(|handled| root > handled));
+                next = match next.zip(root) {
+                    Some((next, root)) => Some(next.min(root)),
+                    None => next.or(root),
+                };
+                Ok(())
+            })?;
+            let Some(root) = next else {
+                return Ok(done);
+            };
+            let now = self.call(hybrid, Called::Handlers(root), time, state)?;
+            done.moved |= now.moved;
+            done.changed |= now.changed;
+            done.stops |= now.stops;
+            handled = Some(root);
+        }
+    }
+
     /// Calls what is due at a time, one after the other: each sees what the former have done.
     fn call(
         &mut self,
         hybrid: &mut Hybrid<'_, S, M>,
-        called: Called,
+        called: Called<S>,
         time: S,
         state: &mut M::State<S>,
     ) -> Result<Done, Fault> {
@@ -235,9 +269,9 @@ where
         } = hybrid;
         list.each(&mut |happening: &mut dyn Happening<S, M>| {
             let name = match called {
-                Called::Handlers => happening
+                Called::Handlers(root) => happening
                     .watch()
-                    .filter(|watch| watch.is_found())
+                    .filter(|watch| watch.root() == Some(root))
                     .map(|watch| watch.name()),
                 Called::Controllers => happening
                     .period()
@@ -297,16 +331,28 @@ where
         hybrid: &mut Hybrid<'_, S, M>,
         time: S,
         state: &M::State<S>,
-        mut take: impl FnMut(&mut Watch<S>, [S; 2]),
+        mut take: impl FnMut(&mut Watch<S>, Reading<S>),
     ) -> Result<(), Fault> {
-        let (later, ahead) = self.ahead(hybrid, time, state);
+        let ahead = self.ahead(hybrid, time, state);
         let dynamics = &self.dynamics;
+        let shaken = |way| shaken::<S, M>(dynamics.constants(), time, state, way);
+        let beside = [shaken(1.0), shaken(-1.0)];
         hybrid.list.each(&mut |happening| {
-            let here = Sample::new(dynamics.view(time, state), dynamics);
-            let ahead = Sample::new(dynamics.view(later, &ahead), dynamics);
-            let readings = [happening.read(&here), happening.read(&ahead)];
+            if happening.watch().is_none() {
+                return Ok(());
+            }
+            let read = |(time, state): (S, &M::State<S>)| {
+                happening.read(&Sample::new(dynamics.view(time, state), dynamics))
+            };
+            let here = read((time, state));
+            let reading = Reading {
+                here,
+                ahead: read((ahead.0, &ahead.1)),
+                round_off: round_off(here, beside.each_ref().map(|(t, x)| read((*t, x)))),
+            };
             if let Some(watch) = happening.watch() {
-                take(watch, [watch.checked(time, readings[0])?, readings[1]]);
+                watch.checked(time, here)?;
+                take(watch, reading);
             }
             Ok(())
         })
@@ -322,15 +368,11 @@ where
         let constants = self.dynamics.constants();
         let mut rates = M::coordinate_rates(constants, state);
         M::state_rates_into(constants, time, state, &mut rates);
-        let states = M::REPORT.states.iter();
-        let speed = states.fold(largest(state.velocities().as_slice()), |speed, info| {
-            let [rate] = read(rates.as_slice(), info.coordinate);
-            speed.max(rate.abs())
-        });
-        if speed * step > S::constant(LITTLE) {
-            step = S::constant(LITTLE).quotient(speed);
-        }
         let rates = M::State::from_parts(rates, Array::zeros());
+        let rate = rate::<S, M>(constants, (state, &rates), step);
+        if rate * step > ahead::<S>() {
+            step = ahead::<S>().quotient(rate);
+        }
         (time + step, state.plus([(step, &rates)]))
     }
 }

@@ -51,6 +51,13 @@ impl<M: Mechanism> Instants<M> {
         reading::<f64, M>(&self.numbers, switch, time)
     }
 
+    /// What an expression changes by at a time (s) within the digits of roots.
+    pub(crate) fn digits(&self, switch: &Switch, time: f64) -> f64 {
+        let near = 4.0 * ROUGH * f64::EPSILON * time.abs();
+        let [before, after] = [time - near, time + near].map(|time| self.at(switch, time));
+        (after - before).abs()
+    }
+
     /// The expression and its slope on a stretch of time (s).
     fn on(&self, switch: &Switch, from: f64, to: f64) -> [Interval; 2] {
         let time = Forward::new(Interval::new(from, to), [Interval::constant(1.0)]);

@@ -9,6 +9,8 @@
 //! that switch, `switching.rs` remembers their sides, and `instants.rs` knows those of the time
 //! ahead.
 //!
+//! `sizes.rs` has what counts as nothing beside a reading or a motion.
+//!
 //! A sign, not a value, says that a reading has passed: it is right whatever a correction after the
 //! step does to the last digits. Where a run starts at a zero, or a handler leaves a reading there,
 //! the way of the motion says on which side it is. A return to the zero before any look has seen
@@ -27,6 +29,7 @@ mod search;
 mod settings;
 mod sides;
 mod single_step;
+mod sizes;
 pub(crate) mod stepper_modes;
 pub(crate) mod switching;
 pub(crate) mod watch;

@@ -116,8 +116,9 @@ where
                 (before, self.since, self.near) = (time, time, bodies);
                 continue;
             };
-            // The end of an interval where it is there to round-off.
-            let root = if is_same(root, time) { time } else { root };
+            // The end of the step where it is there to round-off.
+            let is_end = time == self.end && is_same(root, time);
+            let root = if is_end { time } else { root };
             let bodies = self.bodies_at(root)?;
             let longest = hybrid.longest;
             let mut is_found = false;

@@ -7,8 +7,8 @@
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{OneStep as _, Rk4, System as _};
-use crate::math::scalar::{Real, Scalar};
+use crate::integrate::{OneStep as _, Rk4};
+use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
@@ -16,12 +16,14 @@ use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::switch::Switch;
 use crate::run::events::instants::Instants;
 use crate::run::events::list::Hybrid;
+use crate::run::events::sizes::{rate, round_off, shaken};
 use crate::run::events::switching::{Switching, of, put, sliding, undecided};
 use crate::run::events::watch::is_same;
 use crate::run::segments::Run;
-use crate::state::vector::{Array as _, Vector as _};
+use crate::state::vector::Array as _;
 
-/// By so much (m, rad, or of their rates) a trial moves the mechanism, at the most.
+/// A trial lasts this part of the time in which something turns by a radian or goes the length of
+/// the mechanism, at the most.
 const LITTLE: f64 = 1e-4;
 
 /// How much longer the second trial is.
@@ -49,11 +51,14 @@ where
         let Some(switching) = &mut hybrid.switching else {
             return Ok(false);
         };
-        let readings = self.dynamics.switches(time, state);
         let is_found = core::mem::take(&mut switching.is_found);
         if is_found {
+            let readings = self.dynamics.switches(time, state);
+            let digits = self.dynamics.digits_of_switches((time, state), &readings);
             switching.each(|switch, watch| {
-                watch.found_at(of::<S, M>(&readings, switch));
+                let [reading, digits] =
+                    [&readings, &digits].map(|numbers| of::<S, M>(numbers, switch));
+                watch.found_at(reading, digits);
                 Ok(())
             })?;
         }
@@ -67,7 +72,7 @@ where
                     let mut watch = switching.watch(switch);
                     let side = watch.side().to_f64();
                     let side = instants.side_after(switch, side, now, end);
-                    watch.begin_at(S::constant(side));
+                    watch.begin_at(S::constant(side), S::smallest());
                     switching.keep(switch, &watch);
                 }
             }
@@ -134,26 +139,31 @@ where
                     return Err(undecided(switch, now));
                 }
                 // A jump by another one; the zeros of its own are found as such.
-                let is_beyond = before.to_f64() * reading < -Scalar::sqrt(f64::EPSILON);
+                let digits = instants.digits(switch, now);
+                let is_beyond = before.to_f64() * reading < -digits;
                 // One that comes to rest at zero has no sign any more.
                 if reading == 0.0 || before == S::zero() || is_beyond {
                     let side = instants.side_behind(switch, now, end);
-                    watch.begin_at(S::constant(side));
+                    watch.begin_at(S::constant(side), S::smallest());
                 }
             } else {
-                let readings =
-                    known_readings.get_or_insert_with(|| self.dynamics.switches(time, state));
+                let (readings, digits) = known_readings.get_or_insert_with(|| {
+                    let readings = self.dynamics.switches(time, state);
+                    let digits = self.dynamics.digits_of_switches((time, state), &readings);
+                    (readings, digits)
+                });
+                let digits = of::<S, M>(digits, switch);
                 let reading = of::<S, M>(readings, switch);
                 if reading.to_f64().is_nan() {
                     return Err(undecided(switch, time.to_f64()));
                 }
                 // Exactly zero may be where it comes to rest.
-                if !watch.stays(reading, is_moved || reading == S::zero()) {
-                    let side = match watch.clear_side(reading) {
+                if !watch.stays(reading, digits, is_moved || reading == S::zero()) {
+                    let side = match watch.clear_side(reading, digits) {
                         Some(side) => side,
                         None => self.side_of_motion(bounds, switch, (time, state))?,
                     };
-                    watch.begin_at(side);
+                    watch.begin_at(side, digits);
                 }
                 watch.read(reading);
             }
@@ -176,17 +186,15 @@ where
         (time, state): (S, &M::State<S>),
     ) -> Result<S, Fault> {
         let held = of::<S, M>(self.dynamics.parameters(), switch);
-        let start = self.dynamics.nearest(state);
         let seen = self.dynamics.seen();
-        let rates = self.dynamics.rates(time, &start)?;
-        let mut fastest = S::zero();
-        rates.for_each(|rate| fastest = fastest.max(rate.abs()));
         let longest = if longest > S::zero() {
             left.min(longest)
         } else {
             left
         };
         let mut step = longest;
+        let rates = self.dynamics.evaluate_bodies(time, state)?.rates;
+        let fastest = rate::<S, M>(self.dynamics.constants(), (state, &rates), longest);
         if fastest * step > S::constant(LITTLE) {
             step = S::constant(LITTLE).quotient(fastest);
         }
@@ -222,13 +230,15 @@ where
         (time, state): (S, &M::State<S>),
         step: S,
     ) -> Result<S, Fault> {
-        let before = of::<S, M>(&self.dynamics.switches(time, state), switch);
+        let readings = self.dynamics.switches(time, state);
+        let before = of::<S, M>(&readings, switch);
         let mut moved = self.dynamics.nearest(state);
         Rk4.step(&mut self.dynamics, time, &mut moved, step)?;
         let bodies = self.dynamics.bodies_near(&moved, state);
         let after = of::<S, M>(&self.dynamics.switches(time + step, &bodies), switch);
         let change = after - before;
-        let digits = S::constant(8.0) * S::EPSILON * before.abs().max(S::one());
+        let digits = self.dynamics.digits_of_switches((time, state), &readings);
+        let digits = of::<S, M>(&digits, switch);
         Ok(if change > digits {
             S::one()
         } else if change < -digits {
@@ -284,7 +294,7 @@ where
                 let root = S::constant(root);
                 if is_same(root, from) {
                     let side = instants.side_after(switch, side, stretch.0, until.to_f64());
-                    watch.begin_at(S::constant(side));
+                    watch.begin_at(S::constant(side), S::smallest());
                     switching.keep(switch, &watch);
                     self.dynamics.hold(switch, watch.side());
                     continue 'anew;
@@ -320,5 +330,24 @@ where
         let bodies = with_unit_orientations::<S, M>(bodies);
         M::switches_into(self.constants(), time, &bodies, &mut readings);
         readings
+    }
+
+    /// Down to where each of their readings is at zero.
+    fn digits_of_switches(
+        &self,
+        (time, bodies): (S, &M::State<S>),
+        readings: &M::Parameters<S>,
+    ) -> M::Parameters<S> {
+        let beside = [1.0, -1.0].map(|way| {
+            let (time, bodies) = shaken::<S, M>(self.constants(), time, bodies, way);
+            self.switches(time, &bodies)
+        });
+        let mut digits = *readings;
+        for switch in M::SWITCHES {
+            let [one, other] = beside.each_ref().map(|beside| of::<S, M>(beside, switch));
+            let size = round_off(of::<S, M>(readings, switch), [one, other]);
+            put::<S, M>(&mut digits, switch, size);
+        }
+        digits
     }
 }

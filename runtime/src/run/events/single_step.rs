@@ -9,7 +9,8 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::turns;
 use crate::run::events::root::locate;
-use crate::run::events::watch::{Crossing, Watch, looks};
+use crate::run::events::sizes::{round_off, shaken};
+use crate::run::events::watch::{Crossing, Reading, Watch, looks};
 use crate::run::stepper::{Stepper, Steps};
 
 /// The part of a step after which the motion says on which side of zero a reading is.
@@ -87,7 +88,18 @@ where
         let mut sign = watch;
         let (zero, one) = (S::zero(), S::one());
         let first = S::constant(FIRST_LOOK);
-        sign.begin([read(zero)?, read(first)?]);
+        let here = read(zero)?;
+        let start = self.bodies_within(&step, zero)?;
+        let beside = [1.0, -1.0].map(|way| {
+            let constants = self.dynamics.constants();
+            let (time, bodies) = shaken::<S, M>(constants, time, &start, way);
+            reading(&self.dynamics.view(time, &bodies))
+        });
+        sign.begin(Reading {
+            here,
+            ahead: read(first)?,
+            round_off: round_off(here, beside),
+        });
         let mut before = zero;
         let mut found = None;
         for part in looks(zero, one, true) {

@@ -40,9 +40,6 @@ impl Side {
     }
 }
 
-/// A reading below so many units of round-off is at zero, at a start and after a handler.
-const AT_ZERO: f64 = 8.0;
-
 /// How many events of one condition may follow each other at once.
 const AT_ONCE: usize = 4;
 
@@ -55,6 +52,16 @@ const SAME: f64 = 16.0;
 /// Whether two times are the same to round-off.
 pub(crate) fn is_same<S: Real>(a: S, b: S) -> bool {
     (a - b).abs() <= S::constant(SAME) * a.abs().max(b.abs()).ulp()
+}
+
+/// What is read where a motion begins.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reading<S> {
+    pub(crate) here: S,
+    /// A little ahead on the way of the motion.
+    pub(crate) ahead: S,
+    /// Down to where it is at zero.
+    pub(crate) round_off: S,
 }
 
 /// A condition of a run.
@@ -116,14 +123,15 @@ impl<S: Real> Watch<S> {
         memory.count(&mut self.at_once);
     }
 
-    /// Begins a run with this reading, and one a little ahead on the way of the motion.
-    pub(crate) fn begin(&mut self, [reading, ahead]: [S; 2]) {
-        *self = Self::new(self.name, self.crossing);
-        self.stand([reading, ahead], Self::round_off());
+    /// Where it passes zero, of an event that is to be handled.
+    pub(crate) fn root(&self) -> Option<S> {
+        self.root
     }
 
-    fn round_off() -> S {
-        S::constant(AT_ZERO) * S::EPSILON
+    /// Begins a run with this reading.
+    pub(crate) fn begin(&mut self, reading: Reading<S>) {
+        *self = Self::new(self.name, self.crossing);
+        self.stand([reading.here, reading.ahead], reading.round_off);
     }
 
     /// A reading that may be at zero: then the way of the motion says on which side it is.
@@ -196,9 +204,10 @@ impl<S: Real> Watch<S> {
         self.pass(self.reading);
     }
 
-    /// Takes where the first event of a step is, and the reading there: whether it is this one.
+    /// Takes where the first event of a step is, and the reading there: whether it is this one. One
+    /// that is a few last digits later happens then.
     pub(crate) fn take(&mut self, time: S, reading: S, longest: S) -> Result<(), Fault> {
-        let is_there = self.root.is_some_and(|root| is_same(root, time)) || self.is_met(reading);
+        let is_there = self.root.is_some_and(|root| root <= time) || self.is_met(reading);
         if !is_there {
             self.root = None;
             self.pass(reading);
@@ -216,8 +225,13 @@ impl<S: Real> Watch<S> {
             });
         }
         self.last = Some(time);
+        if self.is_at_zero() {
+            // It never left its round-off, of which the whole reading then is a part.
+            let scale = reading.abs().quotient(S::EPSILON.sqrt());
+            self.scale = self.scale.max(scale);
+        }
         self.zero = S::zero();
-        self.root = Some(time);
+        self.root = Some(self.root.map_or(time, |root| root.min(time)));
         self.reading = reading;
         // Where the reading comes from tells, not its last digits.
         self.side = match self.side {
@@ -234,24 +248,35 @@ impl<S: Real> Watch<S> {
     }
 
     /// Takes the reading in the state that was found, after its correction.
-    pub(crate) fn correct(&mut self, reading: S) {
+    pub(crate) fn correct(&mut self, reading: S, round_off: S) {
         if self.is_found() {
             // Its last digits, and what the correction has changed of them, say nothing.
             let digits = self.reading.abs().min(S::EPSILON.sqrt() * self.scale);
             let size = S::constant(2.0) * (digits + (reading - self.reading).abs());
-            self.zero = size.max(Self::round_off());
+            self.zero = size.max(round_off);
         }
         self.reading = reading;
     }
 
-    /// Takes the reading after all handlers of an instant, and one a little ahead on the way of the
-    /// motion; `moved` where a handler has set the state.
-    pub(crate) fn settle(&mut self, readings: [S; 2], moved: bool) {
+    /// Takes the reading after all handlers of an instant; `moved` where a handler has set the
+    /// state.
+    pub(crate) fn settle(&mut self, reading: Reading<S>, moved: bool) {
+        let Reading {
+            here,
+            ahead,
+            round_off,
+        } = reading;
         let is_found = self.root.take().is_some();
         if is_found && moved {
-            self.stand(readings, self.zero);
-        } else if !is_found && readings[0] != self.reading {
-            self.stand(readings, Self::round_off());
+            self.stand([here, ahead], self.zero);
+        } else if !is_found && here != self.reading {
+            // One that is about to pass its zero, or has just done so, does not by round-off.
+            let was_near = self.side != Side::Unknown && self.reading.abs() <= round_off;
+            if was_near && here.abs() <= round_off {
+                self.reading = here;
+            } else {
+                self.stand([here, ahead], round_off);
+            }
         }
     }
 }
@@ -305,12 +330,12 @@ impl<S: Real> Watch<S> {
     }
 
     /// Takes a side anew, at zero until a reading is beyond round-off.
-    pub(crate) fn begin_at(&mut self, side: S) {
-        (self.side, self.zero, self.root) = (Side::of(side), Self::round_off(), None);
+    pub(crate) fn begin_at(&mut self, side: S, round_off: S) {
+        (self.side, self.zero, self.root) = (Side::of(side), round_off, None);
     }
 
     /// The side of a reading that is not at zero.
-    pub(crate) fn clear_side(&self, reading: S) -> Option<S> {
+    pub(crate) fn clear_side(&self, reading: S, round_off: S) -> Option<S> {
         let side = || {
             if reading > S::zero() {
                 S::one()
@@ -318,14 +343,13 @@ impl<S: Real> Watch<S> {
                 -S::one()
             }
         };
-        (reading.abs() > Self::round_off()).then(side)
+        (reading.abs() > round_off).then(side)
     }
 
     /// Whether its side is that of a reading. One at zero keeps the side that it has, if it has
     /// one, unless the state was moved.
-    pub(crate) fn stays(&self, reading: S, is_moved: bool) -> bool {
-        let zero = self.zero.max(Self::round_off());
-        if reading.abs() <= zero {
+    pub(crate) fn stays(&self, reading: S, round_off: S, is_moved: bool) -> bool {
+        if reading.abs() <= self.zero.max(round_off) {
             !is_moved && self.side != Side::Unknown
         } else {
             Side::of(reading) == self.side
@@ -341,8 +365,8 @@ impl<S: Real> Watch<S> {
     }
 
     /// Takes the reading in the state that was found, after its correction: nobody handles it.
-    pub(crate) fn found_at(&mut self, reading: S) {
-        self.correct(reading);
+    pub(crate) fn found_at(&mut self, reading: S, round_off: S) {
+        self.correct(reading, round_off);
         self.root = None;
     }
 
@@ -357,7 +381,7 @@ impl<S: Real> Watch<S> {
     /// A reading so that it is negative before that.
     pub(crate) fn beyond(&self, reading: S) -> S {
         match self.side {
-            Side::Unknown => reading.abs() - self.zero.max(Self::round_off()),
+            Side::Unknown => reading.abs() - self.zero,
             _ => self.upwards(reading),
         }
     }
