@@ -9,6 +9,8 @@
 //! run reads, without a heap. A run is compiled once for both: a resumed integration is begun as it
 //! was, and then its memory is replaced.
 //!
+//! `passing.rs` leads a run through instants at which two points meet that a force acts between.
+//!
 //! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The
 //! generated factors, of the matrix with the masses, precondition its conjugate gradients, so no
 //! kernel is generated for it.
@@ -33,6 +35,7 @@ pub(crate) mod direct;
 pub(crate) mod events;
 pub(crate) mod kinematics;
 pub(crate) mod output;
+pub(crate) mod passing;
 pub(crate) mod past;
 pub(crate) mod post_step;
 #[cfg(feature = "recorder")]
