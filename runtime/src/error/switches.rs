@@ -24,7 +24,7 @@ pub(super) fn say(fault: &Fault, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             time,
         } => write!(
             f,
-            "`{expression}` in the law of `{law}` is not a number at {} s, or changes its sign there more often than can be followed",
+            "`{expression}` in the law of `{law}` is not a number at {} s, or changes its sign there more often than can be followed: use a smaller step, or a method that controls its steps",
             Given(time)
         ),
         Fault::SwitchLeftOut { law } => write!(

@@ -83,6 +83,9 @@ pub trait Mechanism: Sized + 'static {
     const VECTOR_ROWS: &'static [usize] = &[];
     /// The expressions in laws whose signs decide; none where no law switches.
     const SWITCHES: &'static [Switch] = &[];
+    /// The forces that turn round where a length passes through zero, one for each such length.
+    #[doc(hidden)]
+    const SEPARATIONS: &'static [&'static str] = &[];
 
     /// The parameters of this value, checked as the `f64` that they are: here are all numbers that
     /// the macro could not see.
@@ -308,6 +311,17 @@ pub trait Mechanism: Sized + 'static {
         _time: S,
         _state: &Self::State<S>,
         _readings: &mut Self::Parameters<S>,
+    ) {
+    }
+
+    /// Calls `visit` with the place of each of [`Mechanism::SEPARATIONS`] and its vectors (m), of
+    /// one frame, at two times (s).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn separations<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _ends: [(S, &Self::State<S>); 2],
+        _visit: &mut impl FnMut(usize, [[S; 3]; 2]),
     ) {
     }
 

@@ -10,6 +10,9 @@ pub struct Switch {
     pub expression: &'static str,
     /// Whether it depends on the time alone, besides parameters and inputs.
     pub is_of_time: bool,
+    /// Whether every law that it stands in is continuous there, as those of `abs`, `min` and `max`
+    /// are: such a law holds no mechanism at its switch.
+    pub is_continuous: bool,
     /// The place of its side among the parameters.
     #[doc(hidden)]
     pub place: usize,

@@ -68,7 +68,12 @@ where
         self.begin_interactions()?;
         let list = self.dynamics.tracked();
         let is_whole = match &mut self.hybrid {
-            Some(hybrid) => past.events.read(|memory| hybrid.remember(list, memory)),
+            Some(hybrid) => past.events.read(|memory| {
+                hybrid.remember(list, memory);
+                if !M::SEPARATIONS.is_empty() {
+                    self.passing.remember(memory);
+                }
+            }),
             None => past.events.read(|_| ()),
         };
         if !is_whole {

@@ -17,6 +17,7 @@ use crate::run::deferred::Deferred;
 use crate::run::events::list::Hybrid;
 use crate::run::followed::bodies_within;
 use crate::run::output::Schedule;
+use crate::run::passing::Passing;
 use crate::run::past::Past;
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::RunReport;
@@ -37,6 +38,8 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
     pub(crate) log: Log<'r, S, M>,
     /// Events and controllers.
     pub(crate) hybrid: Option<Hybrid<'r, S, M>>,
+    /// Lengths that pass through zero.
+    pub(crate) passing: Passing<S>,
     /// Steps so far.
     pub(crate) steps: usize,
     pub(crate) counts: Counts,
@@ -143,6 +146,13 @@ where
             until = self
                 .next_switch(from, until)
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+            if past.is_none_or(|past| past.segment.is_none()) {
+                self.passing.begin();
+            }
+            until = self.passing.end(from, until);
+            if past.is_none() {
+                self.leave_zeros(last_good, until - from);
+            }
             let span = TimeSpan {
                 start: from,
                 end: until,
@@ -153,6 +163,10 @@ where
             }
             let reached = self.segment(integrator, &mut companion, span, last_good, past.take());
             self.convert(last_good);
+            if reached.is_ok() && self.passing.has_refused() {
+                from = last_good.0;
+                continue;
+            }
             reached
                 .and_then(|()| self.happen(last_good, &mut companion))
                 .and_then(|()| self.keep_between(integrator, last_good, end))
@@ -252,7 +266,11 @@ where
         let budget = integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.counts.evaluations);
         while integration.time() < span.end {
-            let taken = self.take(&mut integration, last_good)?;
+            let left = span.end - last_good.0;
+            let longest = integrator.fixed_step().map_or(left, |step| step.min(left));
+            let Some(taken) = self.take(&mut integration, last_good, longest)? else {
+                break;
+            };
             let event = taken.event.as_ref();
             let reached = event.map_or(integration.time(), |&(time, _)| time);
             #[cfg(feature = "std")]
@@ -319,14 +337,21 @@ where
     }
 
     /// Takes a step, and looks into it for events and for the monitor. The bodies stood near by at
-    /// its start.
+    /// its start, and it is no longer than some seconds. `None` of one that must be shorter.
     #[inline]
     fn take<K: Advance<S, Dynamics<S, M, F, A, C>>>(
         &mut self,
         integration: &mut K,
         &(start, ref near): &(S, M::State<S>),
-    ) -> Result<Taken<S, M>, Fault> {
-        integration.advance(&mut self.dynamics)?;
+        longest: S,
+    ) -> Result<Option<Taken<S, M>>, Fault> {
+        if let Err(fault) = integration.advance(&mut self.dynamics) {
+            let is_shortened = self.tries_again((start, near), longest);
+            return if is_shortened { Ok(None) } else { Err(fault) };
+        }
+        if !self.is_taken(integration, (start, near))? {
+            return Ok(None);
+        }
         let event = self.event_within(integration, (start, near))?;
         let before = integration.counts().evaluations;
         let mut better = None;
@@ -338,12 +363,12 @@ where
             look_within(monitor, dynamics, integration, near, event.as_ref());
         }
         let evaluations = integration.counts().evaluations;
-        Ok(Taken {
+        Ok(Some(Taken {
             event,
             better,
             evaluations,
             looks: evaluations.saturating_sub(before),
-        })
+        }))
     }
 
     /// Shows the states at reporting times within the last step up to a time, until the observer
@@ -428,7 +453,7 @@ where
     #[inline]
     fn may_defer(&self) -> bool {
         let reads = self.monitor.is_some() || self.stabilisation.is_some() || self.hybrid.is_some();
-        C::IS_RELATIVE && !A::PRESENT && !reads
+        C::IS_RELATIVE && !A::PRESENT && M::SEPARATIONS.is_empty() && !reads
     }
 
     /// Converts the last good state to bodies, if that was deferred.

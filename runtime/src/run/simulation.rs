@@ -26,6 +26,7 @@ use crate::run::deferred::Deferred;
 use crate::run::events::list::{Happenings, Hybrid, NothingHappens};
 use crate::run::events::switching::Switching;
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
+use crate::run::passing::Passing;
 use crate::run::past::{Past, Plan, Planned};
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::{RunReport, RunResult};
@@ -497,6 +498,7 @@ where
             monitor,
             log: Log::new(observe),
             hybrid,
+            passing: Passing::none(),
             steps: 0,
             counts: Counts::default(),
             deferred: Deferred::new(),

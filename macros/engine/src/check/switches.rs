@@ -10,7 +10,7 @@ use super::number::Numbers;
 use crate::diag::{Faults, code};
 use crate::model::{
     Action, Binding, Element, ElementDef, LawTerm, Number, Switch, Switching, Term, UserState,
-    first_further, law::held,
+    first_further, law::place,
 };
 use crate::syntax::array::only;
 use crate::syntax::ungroup;
@@ -261,29 +261,29 @@ pub(super) fn switches(
                     && let Binding::Law(law) = &force.bindings[*parameter]
                 {
                     numbers.field = force.name.clone();
-                    add(law, Some((place, arguments)), numbers, &mut found);
+                    add((law, law), Some((place, arguments)), numbers, &mut found);
                 }
             });
         }
     }
     for state in states {
         numbers.field = state.name.clone();
-        add(&state.rate, None, numbers, &mut found);
+        add((&state.rate, &state.rate), None, numbers, &mut found);
     }
     found
 }
 
-/// Adds those of a law.
+/// Adds those of a part of a law.
 fn add(
-    law: &LawTerm,
+    (part, law): (&LawTerm, &LawTerm),
     arguments: Option<(usize, &[Term])>,
     numbers: &mut Numbers<'_>,
     found: &mut Vec<Switch>,
 ) {
-    for part in law.parts() {
-        add(part, arguments, numbers, found);
+    for part in part.parts() {
+        add((part, law), arguments, numbers, found);
     }
-    let Some(Switching { of, text }) = law.switching() else {
+    let Some(Switching { of, text }) = part.switching() else {
         return;
     };
     let takes = of.has(&|term| matches!(term, LawTerm::Argument(_)));
@@ -291,7 +291,12 @@ fn add(
         takes || of.has(&|term| matches!(term, LawTerm::State(_) | LawTerm::Reading { .. }));
     let has_time = of.has(&|term| matches!(term, LawTerm::Time));
     // What no run changes by itself has the side that it has.
-    if !moves && !has_time || held(found, arguments, of).is_some() {
+    if !moves && !has_time {
+        return;
+    }
+    let is_continuous = law.is_continuous_at(of);
+    if let Some((place, _)) = place(found, arguments, of) {
+        found[place].is_continuous &= is_continuous;
         return;
     }
     let place = first_further(&numbers.values, numbers.values.len()) + found.len();
@@ -304,6 +309,7 @@ fn add(
         of: of.clone(),
         held: numbers.side(place),
         is_of_time: !moves,
+        is_continuous,
     });
 }
 

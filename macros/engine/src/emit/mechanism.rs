@@ -252,6 +252,7 @@ impl Writer<'_> {
         }
         tokens.extend(self.state_rates());
         tokens.extend(self.switches());
+        tokens.extend(self.separations());
         let StraightLine {
             statements,
             outputs,

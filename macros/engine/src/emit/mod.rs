@@ -42,6 +42,7 @@ mod parts;
 mod readouts;
 pub mod report;
 mod rows;
+mod separations;
 mod solution;
 mod solver;
 mod splines;

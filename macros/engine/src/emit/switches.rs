@@ -29,11 +29,13 @@ impl Writer<'_> {
         let infos = model.switches.iter().enumerate().map(|(number, switch)| {
             let (law, expression) = (switch.owner.to_string(), &switch.text);
             let (place, is_of_time) = (first + number, switch.is_of_time);
+            let is_continuous = switch.is_continuous;
             quote! {
                 #facade::mechanism::Switch {
                     law: #law,
                     expression: #expression,
                     is_of_time: #is_of_time,
+                    is_continuous: #is_continuous,
                     place: #place,
                 }
             }

@@ -88,6 +88,8 @@ pub struct Switch {
     pub held: Number,
     /// Whether it depends on nothing but the time, and on what is given from outside.
     pub is_of_time: bool,
+    /// Whether all laws that it stands in are seen to be continuous at its zero.
+    pub is_continuous: bool,
 }
 
 /// The side that is held of an expression, and whether it is that of its opposite.
@@ -96,6 +98,18 @@ pub type Held = Option<(Number, bool)>;
 /// The same among the switches that are known.
 #[must_use]
 pub fn held(switches: &[Switch], arguments: Option<(usize, &[Term])>, of: &LawTerm) -> Held {
+    let (place, is_opposite) = place(switches, arguments, of)?;
+    Some((switches[place].held, is_opposite))
+}
+
+/// The place of an expression among the switches that are known, and whether it is the opposite of
+/// what stands there.
+#[must_use]
+pub fn place(
+    switches: &[Switch],
+    arguments: Option<(usize, &[Term])>,
+    of: &LawTerm,
+) -> Option<(usize, bool)> {
     let is_same = |switch: &Switch| match (&switch.arguments, arguments) {
         (None, _) => true,
         (Some((place, terms)), Some((wanted, given))) => *place == wanted && terms == given,
@@ -103,12 +117,12 @@ pub fn held(switches: &[Switch], arguments: Option<(usize, &[Term])>, of: &LawTe
     };
     let find = |of: &LawTerm| {
         let mut known = switches.iter();
-        known.find(|switch| switch.of == *of && is_same(switch))
+        known.position(|switch| switch.of == *of && is_same(switch))
     };
-    if let Some(switch) = find(of) {
-        return Some((switch.held, false));
+    if let Some(place) = find(of) {
+        return Some((place, false));
     }
-    find(&of.opposite()).map(|switch| (switch.held, true))
+    find(&of.opposite()).map(|place| (place, true))
 }
 
 impl LawTerm {

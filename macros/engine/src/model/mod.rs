@@ -3,6 +3,7 @@
 
 mod asked;
 pub mod comparison;
+mod continuity;
 mod counted;
 pub mod inertia;
 pub mod joint;

@@ -13,6 +13,7 @@ use crate::symbolic::equations::{
     mass, potential_energy, rows, state_rates, switches, vector_rows, with_scene,
 };
 use crate::symbolic::scene::Scene;
+use crate::symbolic::separation::Separations;
 use crate::symbolic::table::Table;
 
 /// A kernel that solves: outputs are coordinate rates, accelerations, multipliers.
@@ -79,6 +80,8 @@ pub struct Kernels {
     pub state_rates: Kernel,
     /// The expressions whose signs decide in laws; behind them those of the time alone.
     pub switches: [Kernel; 2],
+    /// The separations with whose direction a force turns round.
+    pub separations: Separations,
     /// Coordinates, auxiliary variables, the user's own states, then velocities, of the described
     /// state.
     pub initial_state: Kernel,
@@ -147,6 +150,7 @@ impl Kernels {
                     switches(scene, model, |switch| switch.is_of_time || !of_time)
                 })
             }),
+            separations: Separations::new(scene),
             initial_state: initial_state(model),
             counters: counters(scene),
             power: with_scene(scene, |scene| {

@@ -25,6 +25,8 @@
 //! `D`. Module `kept` leaves equations out. Module `left_out` writes the omitted equations as a
 //! kernel, for a judgement at run time.
 //!
+//! Module `separation` finds the lengths at whose zero a force turns round, by numbers.
+//!
 //! Identities. `rotation.rs` declares that an entry of a rotation matrix is its own cofactor.
 //! Kernels of motion use only what holds for any length of `p`. The forms of `A(p)`:
 //! `docs/decisions/001-euler-parameters.md`.
@@ -53,6 +55,7 @@ pub mod motion;
 mod node;
 pub mod rotation;
 pub mod scene;
+pub mod separation;
 mod start;
 pub(crate) mod table;
 pub mod tape;

@@ -109,6 +109,9 @@ where
         let (interval, reporting, reports) = self.schedule.parts();
         let (events, ()) = Kept::of(|memory| {
             hybrid.remember(self.dynamics.tracked(), memory);
+            if !M::SEPARATIONS.is_empty() {
+                self.passing.remember(memory);
+            }
         });
         let mut warnings = hybrid.former.clone();
         if let Some(mut monitor) = self.monitor {

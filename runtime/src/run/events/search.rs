@@ -18,6 +18,9 @@ use crate::run::followed::bodies_within;
 use crate::run::sample::Sample;
 use crate::run::segments::Run;
 
+/// How much longer than for other switches a moment is, for those of continuous laws in fixed steps.
+const UNRESOLVED: f64 = 1e3;
+
 /// The time (s) and the state of an event.
 type Found<S, M> = Option<(S, <M as Mechanism>::State<S>)>;
 
@@ -216,6 +219,12 @@ where
         bodies: &M::State<S>,
     ) -> Result<(), Fault> {
         let longest = hybrid.longest;
+        // A continuous law holds nothing. One that switches again and again within a fixed step is
+        // stiffer than that step resolves; a controlled step follows as often as it is.
+        let unresolved = match self.integration.estimate() {
+            None => S::constant(UNRESOLVED) * longest,
+            Some(_) => S::zero(),
+        };
         let switching = hybrid.switching.as_mut();
         let Some(switching) = switching.filter(|_| Switching::<S, M>::watches()) else {
             return Ok(());
@@ -224,9 +233,14 @@ where
         let mut is_found = false;
         switching.each(|switch, watch| {
             let reading = of::<S, M>(&readings, switch);
-            watch
-                .take(time, reading, longest)
-                .map_err(|_| sliding(switch, time))?;
+            let found = if switch.is_continuous {
+                let found = watch.take(time, reading, unresolved);
+                found.map_err(|_| undecided(switch, time.to_f64()))
+            } else {
+                let found = watch.take(time, reading, longest);
+                found.map_err(|_| sliding(switch, time))
+            };
+            found?;
             is_found |= watch.is_found();
             Ok(())
         })?;

@@ -29,6 +29,10 @@ const LITTLE: f64 = 1e-4;
 /// How much longer the second trial is.
 const LONGER: f64 = 64.0;
 
+/// What parts of a trial are tried where it leads back, as a stiff contact does: a law that slides
+/// leads back however short they are.
+const SHORTER: [f64; 3] = [1e-2, 1e-4, 1e-6];
+
 /// How often the sides may be found anew at an instant, besides once for each.
 const ROUNDS: usize = 8;
 
@@ -107,7 +111,8 @@ where
             }
             is_new = false;
         }
-        let first = M::SWITCHES.first();
+        let mut jumps = M::SWITCHES.iter().filter(|switch| !switch.is_continuous);
+        let first = jumps.next();
         first.map_or(Ok(()), |switch| Err(sliding(switch, time)))
     }
 
@@ -198,29 +203,51 @@ where
         if fastest * step > S::constant(LITTLE) {
             step = S::constant(LITTLE).quotient(fastest);
         }
-        let mut side = S::zero();
+        let mut found = None;
         for length in [S::one(), S::constant(LONGER)] {
             let step = (length * step).min(longest);
-            // As the law reads itself: the way that it goes must be right on the side it leads to.
-            self.dynamics.hold(switch, S::zero());
-            side = self.way(switch, (time, state), step)?;
-            if side == S::zero() {
-                continue;
+            found = self.side_by_trial(switch, (time, state), step)?;
+            if found != Some(S::zero()) {
+                break;
             }
-            self.dynamics.hold(switch, side);
-            let way = self.way(switch, (time, state), step)?;
-            if way == -side {
-                self.dynamics.hold(switch, -side);
-                if self.way(switch, (time, state), step)? != -side {
-                    return Err(sliding(switch, time));
-                }
-                side = -side;
-            }
-            break;
         }
+        for part in SHORTER {
+            if found.is_none() {
+                found = self.side_by_trial(switch, (time, state), S::constant(part) * step)?;
+            }
+        }
+        // A continuous law is the same on both sides: the shortest trial tells where it leads.
+        if found.is_none() && switch.is_continuous {
+            let part = SHORTER.last().map_or(S::one(), |&part| S::constant(part));
+            self.dynamics.hold(switch, S::zero());
+            found = Some(self.way(switch, (time, state), part * step)?);
+        }
+        let side = found.ok_or_else(|| sliding(switch, time))?;
         self.dynamics.hold(switch, held);
         self.dynamics.recall(seen);
         Ok(side)
+    }
+
+    /// The side to which a trial of a length (s) leads, 0 where it leads nowhere; `None` where it
+    /// leads back from either side.
+    fn side_by_trial(
+        &mut self,
+        switch: &Switch,
+        at: (S, &M::State<S>),
+        step: S,
+    ) -> Result<Option<S>, Fault> {
+        // As the law reads itself: the way that it goes must be right on the side it leads to.
+        self.dynamics.hold(switch, S::zero());
+        let side = self.way(switch, at, step)?;
+        if side == S::zero() {
+            return Ok(Some(side));
+        }
+        self.dynamics.hold(switch, side);
+        if self.way(switch, at, step)? != -side {
+            return Ok(Some(side));
+        }
+        self.dynamics.hold(switch, -side);
+        Ok((self.way(switch, at, step)? == -side).then_some(-side))
     }
 
     /// The sign of what an expression changes by in a step.

@@ -1,0 +1,395 @@
+//! Lengths that pass through zero, where forces along them turn round.
+//!
+//! The direction of such a force flips where its two points meet, and turns fast where they pass
+//! close by. A step over that is of first order, by every method. So a step in which a direction
+//! turns with its points close is not taken. The run goes on in shorter ones. Each covers a part of
+//! the distance, as large a part as the way is straight. Where the points meet to round-off, a step
+//! of [`LEAST`] leads across. A straight passage takes some ten steps, another one some fifty.
+//!
+//! The separations are those of the bodies at both ends of a step. Where nothing turns round, none
+//! of this is compiled.
+
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::{Integration, Memory};
+use crate::math::scalar::Real;
+use crate::math::vec3::{minus, plus, times};
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::run::segments::Run;
+use crate::state::vector::{Array, StateParts as _, Vector as _};
+
+/// A step is not taken where the points come closer than this part, squared, of their larger
+/// distance at its ends, and the direction turns by more than [`Bends::slight`].
+const CLOSE: f64 = 0.25;
+
+/// Or where it turns by more than the angle of this cosine, squared, and they come closer than this
+/// part, squared. A line of constant length that turns by a radian comes no closer.
+const STRONG: [f64; 2] = [0.25, 0.5];
+
+/// What is allowed in a step besides a straight way.
+struct Bends {
+    /// The square of the cosine of a turn in a step that is taken however close the points come.
+    slight: f64,
+    /// Part of the distance of the points that is covered, the least and the most: the less, the
+    /// wider the passage is against the longest step.
+    covered: [f64; 2],
+    /// Turn (rad) of the direction behind the passage.
+    turned: f64,
+}
+
+/// Of a method of any order without control of the error.
+const FIXED: Bends = Bends {
+    slight: 0.97,
+    covered: [0.1, 0.5],
+    turned: 0.1,
+};
+
+/// Of one that controls it.
+const CONTROLLED: Bends = Bends {
+    slight: 0.81,
+    covered: [1.0, 1.0],
+    turned: 0.5,
+};
+
+/// A step covers no more than so many distances: what is stiff across them, as forces are by `1 / length`,
+/// differs by that much at the ends of a step of an implicit method.
+const GROWN: f64 = 1e3;
+
+/// This one on a straight way towards each other: it must not lead across.
+const STRAIGHT: f64 = 0.98;
+
+/// A way is straight where the square of the angle to it, times the step, is below this part of the
+/// longest step of the run.
+const BENT: f64 = 1e-7;
+
+/// The step across, as a part of the longest one of the run.
+const LEAST: f64 = 1e-12;
+
+/// How many of them lead across at once.
+const ACROSS: f64 = 4.0;
+
+/// The same in units in the last place of the time.
+const LEAST_OF_TIME: f64 = 64.0;
+
+/// The square of the distance, in ways of a step, from which on some steps are not looked at.
+const FAR_SQUARED: f64 = 1024.0;
+
+/// How many: even from rest on, the way of these is shorter.
+const SKIPPED: usize = 3;
+
+/// How often points may pass each other at once.
+const AT_ONCE: usize = 8;
+
+/// At once: within this part of the longest step of the run.
+const MOMENT: f64 = 1e-3;
+
+/// What a run remembers of lengths that pass through zero.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passing<S> {
+    /// How long (s) the segment under way may be, and the next one.
+    limit: Option<S>,
+    next: Option<S>,
+    /// The longest step so far (s).
+    longest: S,
+    /// Steps that need not be looked at.
+    skipped: usize,
+    /// When points passed each other last (s), and how often at once.
+    last: Option<S>,
+    at_once: usize,
+    /// Whether the last step was not taken.
+    refuses: bool,
+}
+
+/// What a step has done to the lengths.
+struct Judged<S> {
+    /// The place of one whose direction turns with its points close.
+    turns: Option<usize>,
+    /// How many times the step the next one may be: from its start by those that turn, and from its
+    /// end by all.
+    from_start: S,
+    from_end: S,
+    /// Whether all points are far from each other.
+    is_far: bool,
+}
+
+impl<S: Real> Passing<S> {
+    pub(crate) fn none() -> Self {
+        Self {
+            limit: None,
+            next: None,
+            longest: S::zero(),
+            skipped: 0,
+            last: None,
+            at_once: 0,
+            refuses: false,
+        }
+    }
+
+    /// Whether the segment has ended before a step that must be shorter.
+    pub(crate) fn has_refused(&mut self) -> bool {
+        core::mem::take(&mut self.refuses)
+    }
+
+    /// Hands over what it remembers between two steps.
+    pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>) {
+        memory.optional(&mut self.limit);
+        memory.optional(&mut self.next);
+        memory.number(&mut self.longest);
+        memory.count(&mut self.skipped);
+        memory.optional(&mut self.last);
+        memory.count(&mut self.at_once);
+    }
+
+    /// Begins a segment.
+    pub(crate) fn begin(&mut self) {
+        self.limit = self.next.take();
+        self.skipped = 0;
+    }
+
+    /// Where (s) the segment ends that begins at a time and may end at another.
+    pub(crate) fn end(&self, from: S, until: S) -> S {
+        let end = self.limit.map_or(until, |limit| from + limit);
+        // What would be left is no step.
+        if end + self.least(end) < until {
+            end
+        } else {
+            until
+        }
+    }
+
+    /// The step (s) across.
+    fn least(&self, time: S) -> S {
+        let of_time = S::constant(LEAST_OF_TIME) * time.ulp();
+        (S::constant(LEAST) * self.longest).max(of_time)
+    }
+
+    /// Whether a step between two times (s) is taken; the next segment is limited accordingly.
+    fn takes(&mut self, judged: &Judged<S>, (start, end): (S, S)) -> Result<bool, usize> {
+        let step = end - start;
+        let least = self.least(end);
+        let limited = |part: S| {
+            let length = part * step;
+            if length < least {
+                S::constant(ACROSS) * least
+            } else {
+                length
+            }
+        };
+        if let Some(place) = judged.turns {
+            if step > S::constant(2.0 * ACROSS) * least {
+                let most = S::constant(0.5) * step;
+                self.longest = self.longest.max(step);
+                self.next = Some(limited(judged.from_start).min(most));
+                self.refuses = true;
+                return Ok(false);
+            }
+            self.count(end, place)?;
+        }
+        self.longest = self.longest.max(step);
+        let is_limited = self.limit.is_some() || judged.turns.is_some();
+        let left = limited(judged.from_end);
+        self.next = (is_limited && left < self.longest).then_some(left);
+        self.skipped = if judged.is_far { SKIPPED } else { 0 };
+        Ok(true)
+    }
+
+    /// Counts that points have passed each other.
+    fn count(&mut self, time: S, place: usize) -> Result<(), usize> {
+        let moment = S::constant(MOMENT) * self.longest;
+        let is_at_once = self.last.is_some_and(|last| time - last <= moment);
+        self.at_once = if is_at_once { self.at_once + 1 } else { 0 };
+        self.last = Some(time);
+        if self.at_once >= AT_ONCE {
+            return Err(place);
+        }
+        Ok(())
+    }
+}
+
+/// How many times a way may be gone on, from a separation on, by the longest step in such ways.
+fn allowed<S: Real>(from: &[S; 3], way: &[S; 3], (longest, bends): (S, &Bends)) -> S {
+    let never = S::constant(f64::from(f32::MAX));
+    let (at, squared) = (dot(from, from), dot(way, way));
+    if at <= S::zero() || squared <= S::zero() {
+        return never;
+    }
+    let (distance, length) = (at.sqrt(), squared.sqrt());
+    let distances = distance.quotient(length);
+    let towards = -dot(from, way).quotient(distance);
+    let sine = (squared - towards * towards).max(S::smallest() * squared);
+    let sine = sine.quotient(squared).sqrt();
+    let budget = S::constant(BENT) * longest;
+    let straight = if towards <= S::zero() {
+        let bent = budget.quotient(sine * sine);
+        let turned = (S::constant(bends.turned) * distances).quotient(sine);
+        bent.max(turned).min(S::constant(GROWN) * distances)
+    } else {
+        // Up to the closest approach, less what is left where the direction has turned too much.
+        let closest = (distance * towards).quotient(squared);
+        let left = sine * closest.quotient(budget).sqrt();
+        closest * (S::one() - left.max(S::constant(1.0 - STRAIGHT)))
+    };
+    let [least, most] = bends.covered.map(S::constant);
+    // The closest approach in the longest step.
+    let offset = (sine * distances).quotient(longest).max(S::smallest());
+    let covered = least.quotient(offset.sqrt()).max(least).min(most);
+    straight.max(covered * distances).min(never)
+}
+
+fn dot<S: Real>(a: &[S; 3], b: &[S; 3]) -> S {
+    let ([a1, a2, a3], [b1, b2, b3]) = (*a, *b);
+    a1 * b1 + a2 * b2 + a3 * b3
+}
+
+/// Whether a direction turns in a step with its points close to each other.
+fn turns<S: Real>([before, after]: [&[S; 3]; 2], way: &[S; 3], slight: f64) -> bool {
+    let (at_start, at_end) = (dot(before, before), dot(after, after));
+    let squared = dot(way, way);
+    // From zero on it has no direction to turn from.
+    if at_start <= S::zero() || squared <= S::zero() {
+        return false;
+    }
+    let nearest = (-dot(before, way)).quotient(squared);
+    let nearest = nearest.max(S::zero()).min(S::one());
+    let closest = plus(before, &times(way, nearest));
+    let closest = dot(&closest, &closest);
+    let cosine = dot(before, after);
+    [[slight, CLOSE], STRONG].iter().any(|&[turned, close]| {
+        let turned = S::constant(turned) * at_start * at_end;
+        (cosine <= S::zero() || cosine * cosine < turned)
+            && closest < S::constant(close) * at_start.max(at_end)
+    })
+}
+
+/// Looks at the separations at the start and at the end of a step.
+fn judged<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    ends: [(S, &M::State<S>); 2],
+    (longest, bends): (S, &Bends),
+) -> Judged<S> {
+    let never = S::constant(f64::from(f32::MAX));
+    let mut judged = Judged {
+        turns: None,
+        from_start: never,
+        from_end: never,
+        is_far: true,
+    };
+    let [(start, _), (end, _)] = ends;
+    let longest = longest.max(end - start).quotient(end - start);
+    let by = (longest, bends);
+    M::separations(constants, ends, &mut |place, [before, after]| {
+        let way = minus(&after, &before);
+        if dot(&before, &before) > S::constant(FAR_SQUARED) * dot(&way, &way) {
+            return;
+        }
+        judged.is_far = false;
+        judged.from_end = judged.from_end.min(allowed(&after, &way, by));
+        if turns([&before, &after], &way, bends.slight) {
+            judged.turns = Some(place);
+            judged.from_start = judged.from_start.min(allowed(&before, &way, by));
+        }
+    });
+    judged
+}
+
+impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// Whether the last step is taken, which began at a time where the bodies stood near by: no
+    /// direction of a force has turned round in it.
+    #[inline]
+    pub(super) fn is_taken<K: Integration<S, C::State<S>>>(
+        &mut self,
+        integration: &K,
+        start: (S, &M::State<S>),
+    ) -> Result<bool, Fault> {
+        if M::SEPARATIONS.is_empty() {
+            return Ok(true);
+        }
+        if self.passing.skipped > 0 {
+            self.passing.skipped -= 1;
+            return Ok(true);
+        }
+        self.look_for_passages(integration, start)
+    }
+
+    #[inline(never)]
+    fn look_for_passages<K: Integration<S, C::State<S>>>(
+        &mut self,
+        integration: &K,
+        (start, near): (S, &M::State<S>),
+    ) -> Result<bool, Fault> {
+        let end = integration.time();
+        let bodies = self.dynamics.bodies_near(integration.state(), near);
+        let ends = [(start, near), (end, &bodies)];
+        let bends = integration.estimate().map_or(&FIXED, |_| &CONTROLLED);
+        let by = (self.passing.longest, bends);
+        let judged = judged::<S, M>(self.dynamics.constants(), ends, by);
+        let taken = self.passing.takes(&judged, (start, end));
+        taken.map_err(|place| holds::<S, M>(place, end))
+    }
+
+    /// Whether a step that has failed, of so many seconds at the most, is tried again, shorter: by
+    /// their velocities two points meet within it.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn tries_again(&mut self, (time, state): (S, &M::State<S>), step: S) -> bool {
+        let step = self.passing.limit.unwrap_or(step).min(step);
+        if M::SEPARATIONS.is_empty() || step <= S::constant(2.0 * ACROSS) * self.passing.least(time)
+        {
+            return false;
+        }
+        let constants = self.dynamics.constants();
+        let rates = M::coordinate_rates(constants, state);
+        let rates = M::State::from_parts(rates, Array::zeros());
+        let ahead = S::constant(2.0) * step;
+        let later = state.plus([(ahead, &rates)]);
+        let ends = [(time, state), (time + ahead, &later)];
+        let judged = judged::<S, M>(constants, ends, (self.passing.longest, &FIXED));
+        if judged.turns.is_none() {
+            return false;
+        }
+        let next = (judged.from_start * ahead).min(S::constant(0.5) * step);
+        self.passing.next = Some(next);
+        self.passing.refuses = true;
+        true
+    }
+
+    /// Leaves a length that is exactly zero on the way of the motion, as little as can be told: its
+    /// direction is then that way. One at rest at zero has none, and keeps none.
+    pub(super) fn leave_zeros(&mut self, (time, state): &mut (S, M::State<S>), left: S) {
+        if M::SEPARATIONS.is_empty() {
+            return;
+        }
+        let constants = self.dynamics.constants();
+        let mut is_zero = false;
+        let ends = [(*time, &*state); 2];
+        M::separations(constants, ends, &mut |_, [at, _]| {
+            is_zero |= dot(&at, &at) <= S::zero();
+        });
+        if is_zero {
+            let longest = self.passing.longest;
+            let step = if longest > S::zero() { longest } else { left };
+            let rates = M::coordinate_rates(constants, state);
+            let rates = M::State::from_parts(rates, Array::zeros());
+            *state = state.plus([(S::constant(LEAST) * step, &rates)]);
+        }
+    }
+}
+
+/// A force that leads its points together again and again.
+#[cold]
+fn holds<S: Real, M: Mechanism>(place: usize, time: S) -> Fault {
+    Fault::SlidingLaw {
+        law: M::SEPARATIONS.get(place).copied().unwrap_or_default(),
+        expression: "length",
+        time: time.to_f64(),
+    }
+}
