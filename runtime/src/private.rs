@@ -137,13 +137,7 @@ pub fn mirrored<S: Scalar>(p: [S; 4], axis: usize) -> [S; 4] {
     [e0, seen(0, e1), seen(1, e2), seen(2, e3)]
 }
 
-/// Whether principal moments of inertia are those of no body: one is larger than the others
-/// together.
-#[must_use]
-pub fn is_no_inertia(a: f64, b: f64, c: f64) -> bool {
-    let excess = |x: f64, y: f64, z: f64| x > (y + z) * (1.0 + 1e-9);
-    excess(a, b, c) || excess(b, c, a) || excess(c, a, b)
-}
+pub use crate::mechanism::kernels::is_no_inertia;
 
 /// Whether all components are zero.
 #[must_use]

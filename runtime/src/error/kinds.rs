@@ -451,8 +451,19 @@ pub enum Fault {
         /// The joint's field.
         joint: &'static str,
     },
+    /// A state of joint coordinates does not satisfy the constraints: a loop is open, or its joints
+    /// move against each other.
+    NotAssembled {
+        /// The joint's field.
+        joint: &'static str,
+        /// What is violated.
+        quantity: Quantity,
+        /// By how much, in the unit of the quantity.
+        violation: f64,
+    },
     /// The chosen coordinates do not determine the motion here: something can move while they stand
-    /// still.
+    /// still. So near to such a configuration that the digits of a state do not tell how the others
+    /// move, it is the same.
     NotDetermined {
         /// The field of a joint, or of a free body, that can move.
         joint: &'static str,

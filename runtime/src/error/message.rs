@@ -477,6 +477,23 @@ impl fmt::Display for Fault {
                 f,
                 "`{body}` does not move freely: joint `{joint}` carries it in the spanning tree, and its motion can be chosen"
             ),
+            Self::NotAssembled {
+                joint,
+                quantity,
+                violation,
+            } => {
+                let (violation, unit) = (Measured(violation), quantity.unit());
+                match quantity {
+                    Quantity::Length | Quantity::Angle => write!(
+                        f,
+                        "joint `{joint}` is open by {violation} {unit}: the state does not satisfy the constraints, `state_near` finds one that does"
+                    ),
+                    Quantity::Speed | Quantity::AngularVelocity => write!(
+                        f,
+                        "the bodies of joint `{joint}` move against it at {violation} {unit}: the state does not satisfy the constraints, `with_rates` finds one that does"
+                    ),
+                }
+            }
             Self::NotDetermined { joint } => write!(
                 f,
                 "the chosen coordinates do not determine the motion here: `{joint}` can move while they stand still"

@@ -4,6 +4,7 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use super::choice::Coordinate;
+use super::determined::Needs;
 use super::elimination::set;
 use super::partition::Partition;
 use super::points::moved;
@@ -224,7 +225,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         state: &M::JointState<S>,
         directions: &[Option<Along>; K],
     ) -> Result<Standing<M, N, K, S>, Fault> {
-        let partition = self.equations.partition(state)?;
+        let partition = self.known(state, Needs::Accelerations)?;
         let there = self.state_along(state, &partition, directions)?;
         let bodies = self.bodies_along(state, &there);
         Ok((there, bodies))

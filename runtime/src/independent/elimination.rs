@@ -19,14 +19,26 @@ pub(super) struct Elimination<'a, S> {
     pub(super) least: f64,
 }
 
+/// A pivot: its share of the size of its row, and where it stands.
+#[derive(Clone, Copy)]
+pub(super) struct Pivot {
+    pub(super) share: f64,
+    pub(super) row: usize,
+    pub(super) column: usize,
+    /// The product of the shares of all pivots: the determinant.
+    pub(super) volume: f64,
+}
+
 impl<S: Real> Elimination<'_, S> {
-    /// Reduces matrix and right-hand sides until each column with a pivot has nothing else.
+    /// Reduces matrix and right-hand sides until each column with a pivot has nothing else. The
+    /// least pivot; `None` without any.
     pub(super) fn run<const R: usize>(
         &mut self,
         mut rights: [&mut [S]; R],
         unit: impl Fn(usize) -> S,
         is_unknown: impl Fn(usize) -> bool,
-    ) {
+    ) -> Option<Pivot> {
+        let (mut weakest, mut volume): (Option<Pivot>, f64) = (None, 1.0);
         let (width, height) = (self.width, self.sizes.len());
         loop {
             let mut best = (self.least, None);
@@ -41,7 +53,18 @@ impl<S: Real> Elimination<'_, S> {
                     }
                 }
             }
-            let Some((row, column)) = best.1 else { break };
+            let Some((row, column)) = best.1 else {
+                break weakest.map(|weakest| Pivot { volume, ..weakest });
+            };
+            volume *= best.0;
+            if weakest.is_none_or(|weakest| best.0 < weakest.share) {
+                weakest = Some(Pivot {
+                    share: best.0,
+                    row,
+                    column,
+                    volume,
+                });
+            }
             if let Some(place) = self.row_of.get_mut(column) {
                 *place = S::constant(row as f64 + 1.0);
             }

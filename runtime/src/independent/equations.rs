@@ -2,6 +2,7 @@
 
 use nalgebra::{ArrayStorage, SMatrix, SVector};
 
+use super::determined::Needs;
 use super::elimination::{at, set};
 use super::partition::{Partition, joint_rates};
 use super::{Equations, IndependentCoordinates};
@@ -115,45 +116,23 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
         self.efforts(following, &efforts)
     }
 
-    /// The efforts of these accelerations.
-    pub(super) fn inverse(
-        &self,
-        state: &M::JointState<S>,
-        accelerations: &[S; N],
-    ) -> Result<[S; N], Fault>
-    where
-        M: HasInverse,
-    {
-        let following = self.following(state)?;
-        Ok(self.inverse_with(following.as_ref(), state, accelerations))
-    }
-
-    /// The mass matrix.
-    pub(super) fn mass(&self, state: &M::JointState<S>) -> Result<[[S; N]; N], Fault>
-    where
-        M: HasMassMatrix,
-    {
-        let following = self.following(state)?;
-        Ok(self.mass_with(following.as_ref(), state))
-    }
-
     /// The accelerations of these efforts, by `L D L^T` of the mass matrix.
-    pub(super) fn forward(
+    pub(super) fn forward_with(
         &self,
+        following: Option<&Partition<M, N, S>>,
         state: &M::JointState<S>,
         efforts: &[S; N],
-    ) -> Result<[S; N], Fault>
+    ) -> [S; N]
     where
         M: HasInverse + HasMassMatrix,
     {
-        let following = self.following(state)?;
-        let mass = self.mass_with(following.as_ref(), state);
-        let bias = self.inverse_with(following.as_ref(), state, &[S::zero(); N]);
+        let mass = self.mass_with(following, state);
+        let bias = self.inverse_with(following, state, &[S::zero(); N]);
         let mut right = *efforts;
         for (right, bias) in right.iter_mut().zip(bias) {
             *right = *right - bias;
         }
-        Ok(solve(mass, right))
+        solve(mass, right)
     }
 }
 
@@ -234,13 +213,17 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// displacements, kg m between the two.
     ///
     /// # Errors
-    /// [`Fault::NotDetermined`], [`Fault::NotIndependent`]: the choice fails here.
+    /// - [`Fault::NotAssembled`]: the state does not satisfy the constraints.
+    /// - [`Fault::NotDetermined`]: the chosen coordinates do not determine the others here, or not
+    ///   to the digits that the state has.
+    /// - [`Fault::NotIndependent`]: closed loops restrict the chosen coordinates.
     pub fn mass(&self, state: &M::JointState<S>) -> Result<SMatrix<S, N, N>, Fault>
     where
         M: HasMassMatrix,
     {
         // It is symmetric: its rows are its columns.
-        let rows = self.equations.mass(state)?;
+        let following = self.determined(state, Needs::Rates)?;
+        let rows = self.equations.mass_with(following.as_ref(), state);
         finite_matrix(SMatrix::from_data(ArrayStorage(rows)))
     }
 
@@ -258,7 +241,9 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         M: HasInverse,
     {
         let accelerations: [S; N] = accelerations.into().into();
-        finite(self.equations.inverse(state, &accelerations)?)
+        let following = self.determined(state, Needs::Accelerations)?;
+        let following = following.as_ref();
+        finite((self.equations).inverse_with(following, state, &accelerations))
     }
 
     /// `h(q, v)`: [`IndependentCoordinates::inverse`] without accelerations. What velocities and
@@ -282,7 +267,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         M: HasGravity,
     {
         let equations = &self.equations;
-        let following = equations.following(state)?;
+        let following = self.determined(state, Needs::Rates)?;
         let efforts = M::gravity_efforts(&equations.constants, equations.time, state);
         finite(equations.efforts(following.as_ref(), &efforts))
     }
@@ -298,7 +283,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         M: HasCoriolis,
     {
         let equations = &self.equations;
-        let following = equations.following(state)?;
+        let following = self.determined(state, Needs::Accelerations)?;
         let all = equations.accelerations(following.as_ref(), &[S::zero(); N]);
         let efforts = M::coriolis_efforts(&equations.constants, equations.time, state, &all);
         finite(equations.efforts(following.as_ref(), &efforts))
@@ -318,7 +303,8 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         M: HasInverse + HasMassMatrix,
     {
         let efforts: [S; N] = efforts.into().into();
-        finite(self.equations.forward(state, &efforts)?)
+        let following = self.determined(state, Needs::Accelerations)?;
+        finite((self.equations).forward_with(following.as_ref(), state, &efforts))
     }
 
     /// The rates of the coordinates (rad/s, m/s) at a state.

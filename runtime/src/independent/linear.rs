@@ -5,6 +5,7 @@ use core::array::from_fn;
 use nalgebra::SMatrix;
 
 use super::IndependentCoordinates;
+use super::determined::Needs;
 use super::directions::Along;
 use super::elimination::at;
 use super::equations::Factors;
@@ -132,7 +133,7 @@ where
     ) -> Result<Linearised<N, K, P, S>, Fault> {
         bodies_alone::<M>(LeavesOut::Linearisation)?;
         let mut linear = Linearised::<N, K, P, S>::zeros();
-        let partition = self.equations.partition(state)?;
+        let partition = self.known(state, Needs::Derivatives)?;
         if (M::JOINT_REPORT.motions.iter()).any(|motion| motion.freedom == Freedom::Ball) {
             let rates = joint_rates::<M, S>(state);
             linear.rates_by_positions = SMatrix::from_fn(|row, column| {

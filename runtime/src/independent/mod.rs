@@ -2,10 +2,11 @@
 //! degrees of freedom, and everything else follows.
 //!
 //! - `choice.rs`: what can be chosen.
+//! - `determined.rs`: whether a state is one to compute by.
 //! - `partition.rs`: the other rates, from the equations that close loops (coordinate partitioning,
 //!   Wehage and Haug 1982).
 //! - `equations.rs`: mass matrix and efforts. `points.rs`: Jacobians. `states.rs`: the way to
-//!   states and back.
+//!   states and back; `followed.rs`: the same near a singular configuration.
 //! - `directions.rs`: derivatives along coordinates, rates and values.
 //! - `elimination.rs`: Gauss-Jordan, for these equations and for Newton's method.
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions;
@@ -28,11 +29,13 @@ mod balance;
 mod base_parameters;
 mod choice;
 mod continuation;
+mod determined;
 mod directions;
 mod elimination;
 mod equations;
 mod equilibrium;
 mod folds;
+mod followed;
 #[cfg(feature = "std")]
 mod identification;
 mod linear;
@@ -70,7 +73,6 @@ pub use modes::Mode;
 pub use regressor::INERTIAL_PARAMETERS;
 pub use varied::Varied;
 
-use crate::constraints::row_units::characteristic_length;
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_rates::JointRates;
@@ -107,6 +109,10 @@ struct Equations<M: JointRates, const N: usize, S: Scalar> {
     time: S,
     /// A length of the mechanism (m), by which displacements compare with angles.
     length: S,
+    /// The sizes of the rows that close loops, see `determined.rs`.
+    sizes: M::ClosingMultipliers<S>,
+    /// The largest part of the size of a row that its terms do not resolve.
+    resolved: f64,
 }
 
 /// Coordinates by handle, by a method of the mechanism.
@@ -171,15 +177,9 @@ pub trait IndependentExt: JointRates {
         let places = choice::places::<Self, N>(chosen)?;
         let parameters = self.parameters()?;
         let constants = Self::prepare(&parameters);
-        let described = Self::initial_state(&constants);
         Ok(IndependentCoordinates {
+            equations: Equations::prepared((&parameters, &constants), places, S::zero()),
             constants,
-            equations: Equations {
-                length: characteristic_length::<S, Self>(&constants, &described),
-                constants: Self::prepare_joints(&parameters),
-                places,
-                time: S::zero(),
-            },
             parameters,
             passes_limits: false,
         })

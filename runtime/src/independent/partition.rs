@@ -1,7 +1,7 @@
 //! The rates of all joints by the chosen ones.
 
 use super::Equations;
-use super::elimination::{Elimination, at, set};
+use super::elimination::{Elimination, Pivot, at, set};
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_kernels::Freedom;
@@ -18,6 +18,26 @@ pub(super) struct Partition<M: JointRates, const N: usize, S: Scalar> {
     pub(super) drift: M::JointVelocities<S>,
     /// The motion without the chosen one that takes `Phi` to zero.
     pub(super) closing: M::JointVelocities<S>,
+    pub(super) standing: Standing,
+}
+
+/// How well a state stands on the equations that close loops.
+#[derive(Clone, Copy)]
+pub(super) struct Standing {
+    /// The least pivot; `None` in a tree.
+    pub(super) weakest: Option<Pivot>,
+    /// The largest `Phi` over the size of its row, and the row.
+    pub(super) open: (f64, usize),
+    /// The same of `Phi'`.
+    pub(super) opening: (f64, usize),
+}
+
+impl Standing {
+    const TREE: Self = Self {
+        weakest: None,
+        open: (0.0, 0),
+        opening: (0.0, 0),
+    };
 }
 
 impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
@@ -30,13 +50,24 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     }
 
     /// Eliminates the dependent rates from the equations that close loops (Gauss and Jordan, with
-    /// the largest pivots first).
+    /// the largest pivots first). Whether the state is one to go by is told by
+    /// [`IndependentCoordinates::known`](super::IndependentCoordinates::known).
     pub(super) fn partition(&self, state: &M::JointState<S>) -> Result<Partition<M, N, S>, Fault> {
+        self.eliminated(state, None)
+    }
+
+    /// The same; with a row that is open by so much alone, in the place of `Phi`.
+    pub(super) fn eliminated(
+        &self,
+        state: &M::JointState<S>,
+        opened: Option<(usize, S)>,
+    ) -> Result<Partition<M, N, S>, Fault> {
         let mut partition = Partition {
             columns: [M::JointVelocities::zeros(); N],
             bias: M::JointVelocities::zeros(),
             drift: M::JointVelocities::zeros(),
             closing: M::JointVelocities::zeros(),
+            standing: Standing::TREE,
         };
         for (column, &place) in partition.columns.iter_mut().zip(&self.places) {
             set(column, place, S::one());
@@ -48,9 +79,17 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
             M::closing_rows(&self.constants, self.time, state);
         let width = partition.bias.as_slice().len();
         let height = gamma.as_slice().len();
-        // `-dPhi/dt = D w - Phi'`.
-        let mut explicit = rates;
-        let joint_rates = joint_rates::<M, S>(state);
+        if let Some((row, by)) = opened {
+            values = M::ClosingMultipliers::zeros();
+            set(&mut values, row, -by);
+        }
+        // `-dPhi/dt = D w - Phi'`, of which nothing but round-off is left without the time.
+        let mut explicit = M::ClosingMultipliers::<S>::zeros();
+        let mut joint_rates = M::JointVelocities::<S>::zeros();
+        if const { M::REPORT.time.constraints } {
+            explicit = rates;
+            joint_rates = self::joint_rates::<M, S>(state);
+        }
         let rows = explicit.as_mut_slice().iter_mut();
         for (right, row) in rows.zip(jacobian.as_slice().chunks(width.max(1))) {
             let products = row.iter().zip(joint_rates.as_slice());
@@ -62,11 +101,11 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
             .iter_mut()
             .for_each(|value| *value = -*value);
         let scale = |place: usize| self.scale(place);
-        let mut sizes = M::ClosingMultipliers::<S>::zeros();
+        let mut sizes = self.sizes;
         let of_rows = sizes.as_mut_slice().iter_mut();
         for (size, row) in of_rows.zip(jacobian.as_slice().chunks(width.max(1))) {
             let entries = row.iter().enumerate();
-            *size = entries.fold(S::zero(), |most: S, (place, &entry)| {
+            *size = entries.fold(*size, |most: S, (place, &entry)| {
                 let entry = entry * scale(place);
                 if entry.abs().to_f64() > most.abs().to_f64() {
                     entry
@@ -75,6 +114,8 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
                 }
             });
         }
+        partition.standing.open = largest_share::<M, S>(&values, &sizes);
+        partition.standing.opening = largest_share::<M, S>(&rates, &sizes);
         let mut row_of = M::JointVelocities::<S>::zeros();
         let mut elimination = Elimination {
             entries: jacobian.as_mut_slice(),
@@ -85,7 +126,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
             least: S::EPSILON.to_f64().sqrt(),
         };
         let is_dependent = |column: usize| !self.places.contains(&column);
-        elimination.run(
+        partition.standing.weakest = elimination.run(
             [&mut gamma, &mut explicit, &mut values].map(Array::as_mut_slice),
             scale,
             is_dependent,
@@ -121,6 +162,23 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
         }
         Ok(partition)
     }
+}
+
+/// The largest of some numbers over the sizes of their rows, and its row.
+fn largest_share<M: JointRates, S: Real>(
+    numbers: &M::ClosingMultipliers<S>,
+    sizes: &M::ClosingMultipliers<S>,
+) -> (f64, usize) {
+    let places = numbers.as_slice().iter().zip(sizes.as_slice()).enumerate();
+    places.fold((0.0, 0), |most, (row, (number, size))| {
+        let number = number.abs().to_f64();
+        let share = number / size.abs().to_f64();
+        if number > 0.0 && share > most.0 {
+            (share, row)
+        } else {
+            most
+        }
+    })
 }
 
 /// The rates of the joints at a state.

@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, Vector3};
 
+use super::determined::Needs;
 use super::elimination::at;
 use super::equations::{finite_matrix, solve};
 use super::partition::Partition;
@@ -69,16 +70,16 @@ impl<M: HasJacobian, const N: usize, S: Real> Equations<M, N, S> {
     pub(super) fn jacobian(
         &self,
         state: &M::JointState<S>,
+        partition: &Partition<M, N, S>,
         point: &Fixed<S>,
-    ) -> Result<[[S; 6]; N], Fault> {
-        let partition = self.partition(state)?;
+    ) -> [[S; 6]; N] {
         let Some(body) = point.body else {
-            return Ok([[S::zero(); 6]; N]);
+            return [[S::zero(); 6]; N];
         };
         let motions = M::body_motions(&self.constants, state);
         let p = position::<S, M>(motions.as_slice(), body, &point.arm);
         let axes = M::joint_axes(&self.constants, self.time, state);
-        Ok(columns(&partition, axes.as_slice(), body, &p))
+        columns(partition, axes.as_slice(), body, &p)
     }
 }
 
@@ -121,6 +122,8 @@ impl<M: JointRates, const N: usize, S: Scalar> Equations<M, N, S> {
             places: self.places,
             time: Forward::fixed(self.time),
             length: Forward::fixed(self.length),
+            sizes: crate::forward::lifted(&self.sizes),
+            resolved: self.resolved,
         }
     }
 }
@@ -161,7 +164,8 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         at: impl Located<M>,
     ) -> Result<SMatrix<S, 6, N>, Fault> {
         let point = Fixed::of::<M>(&self.constants, at);
-        let columns = self.equations.jacobian(state, &point)?;
+        let partition = self.known(state, Needs::Rates)?;
+        let columns = self.equations.jacobian(state, &partition, &point);
         finite_matrix(SMatrix::from_fn(|row, column| columns[column][row]))
     }
 
@@ -175,6 +179,7 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         state: &M::JointState<S>,
         at: impl Located<M>,
     ) -> Result<SMatrix<S, 6, N>, Fault> {
+        self.known(state, Needs::Accelerations)?;
         let Equations {
             constants, time, ..
         } = &self.equations;
@@ -183,7 +188,8 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let mut equations = self.equations.lifted::<1>();
         equations.time = Forward::new(*time, [S::one()]);
         let point = Fixed::of::<M>(&self.constants, at).lifted();
-        let columns = equations.jacobian(&moved, &point)?;
+        let partition = equations.partition(&moved)?;
+        let columns = equations.jacobian(&moved, &partition, &point);
         finite_matrix(SMatrix::from_fn(|row, column| {
             let [rate] = columns[column][row].derivatives();
             rate
@@ -206,7 +212,8 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         M: HasMassMatrix,
     {
         let point = Fixed::of::<M>(&self.constants, at);
-        let columns = self.equations.jacobian(state, &point)?;
+        let partition = self.known(state, Needs::Rates)?;
+        let columns = self.equations.jacobian(state, &partition, &point);
         let size = direction
             .iter()
             .fold(S::zero(), |most: S, part| most.max(part.abs()));
@@ -219,7 +226,8 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let [x, y, z]: [S; 3] = direction.map(|part| part.quotient(size)).into();
         let square = x * x + y * y + z * z;
         let along = columns.map(|[vx, vy, vz, ..]| vx * x + vy * y + vz * z);
-        let accelerations = solve(self.equations.mass(state)?, along);
+        let following = (!M::JOINT_REPORT.closing.is_empty()).then_some(&partition);
+        let accelerations = solve(self.equations.mass_with(following, state), along);
         let products = along.iter().zip(accelerations);
         let mobility = products.fold(S::zero(), |sum, (&a, b)| a.fused(b, sum));
         if mobility.is_finite() {

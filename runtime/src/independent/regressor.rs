@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::IndependentCoordinates;
+use super::determined::Needs;
 use super::equations::{finite, finite_matrix};
 use super::points::{columns, moved};
 use super::states::put_velocities;
@@ -131,7 +132,7 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let equations = &self.equations;
         let accelerations: [S; N] = accelerations.into().into();
         let accelerations: [S; N] = finite(accelerations)?.into();
-        let partition = equations.partition(state)?;
+        let partition = self.known(state, Needs::Accelerations)?;
         let all = equations.accelerations(Some(&partition), &accelerations);
         let mut slope = rates_of_motion::<S, M>(&equations.constants, equations.time, state);
         put_velocities::<M, S>(&all, &mut slope);

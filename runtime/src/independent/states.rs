@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 
 use nalgebra::SVector;
 
+use super::determined::Needs;
 use super::elimination::{at, set};
 use super::partition::{Partition, velocities};
 use super::{Equations, IndependentCoordinates};
@@ -138,7 +139,14 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             let share = S::constant(f64::from(step) / f64::from(steps));
             let wanted = SVector::from_fn(|row, _| way[row].fused(share, begin[row]));
             let wanted = if step == steps { positions } else { wanted };
-            let next = self.stepped(&state, &wanted).map_err(|fault| match fault {
+            let next = self.stepped(&state, &wanted).or_else(|fault| {
+                let followed = self.followed(&state, &wanted);
+                followed.map_err(|own| match own {
+                    Fault::NotDetermined { .. } => own,
+                    _ => fault,
+                })
+            });
+            let next = next.map_err(|fault| match fault {
                 Fault::WayEnds { joint, share } => Fault::WayEnds {
                     joint,
                     share: (f64::from(step - 1) + share) / f64::from(steps),
@@ -211,23 +219,37 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     }
 
     /// The state near one in which loops are closed, at the same chosen coordinates.
-    pub(super) fn closed(&self, mut state: M::JointState<S>) -> Result<M::JointState<S>, Fault> {
+    pub(super) fn closed(&self, state: M::JointState<S>) -> Result<M::JointState<S>, Fault> {
+        self.closed_by(state).map(|(state, _)| state)
+    }
+
+    /// The same, and how far the first correction led (rad, or lengths of the mechanism).
+    pub(super) fn closed_by(
+        &self,
+        mut state: M::JointState<S>,
+    ) -> Result<(M::JointState<S>, f64), Fault> {
         if M::JOINT_REPORT.closing.is_empty() {
-            return Ok(state);
+            return Ok((state, 0.0));
         }
         let Equations {
             constants, time, ..
         } = &self.equations;
-        let mut before = S::one();
+        let (mut before, mut first) = (S::one(), 0.0);
         for taken in 0..CORRECTIONS {
-            let closing = self.equations.partition(&state)?.closing;
+            let Partition {
+                closing, standing, ..
+            } = self.equations.partition(&state)?;
             let mut open = S::zero();
             for (place, &number) in closing.as_slice().iter().enumerate() {
                 open = Real::max(open, number.abs().quotient(self.equations.scale(place)));
             }
-            let is_least = open < S::EPSILON.powf(0.75) && open * S::constant(2.0) > before;
-            if open <= S::EPSILON || is_least {
-                return Ok(state);
+            // Near a singular configuration corrections stay large though nothing is open.
+            let is_small = open < S::EPSILON.powf(0.75) || self.equations.is_resolved(&standing);
+            if open <= S::EPSILON || is_small && open * S::constant(2.0) > before {
+                return Ok((state, first));
+            }
+            if taken == 0 {
+                first = open.to_f64();
             }
             if open.to_f64().is_nan() || open > before {
                 return Err(Fault::NotConverged {
@@ -243,11 +265,15 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             let slope = rates_of_motion::<S, M>(constants, *time, &slope);
             state = state.plus([(S::one(), &slope)]);
         }
-        Ok(state)
+        Ok((state, first))
     }
 
     /// What is left of the way to coordinates, by the nearest turn.
-    fn left(&self, state: &M::JointState<S>, wanted: &SVector<S, N>) -> Result<[S; N], Fault> {
+    pub(super) fn left(
+        &self,
+        state: &M::JointState<S>,
+        wanted: &SVector<S, N>,
+    ) -> Result<[S; N], Fault> {
         let present = self.positions(state)?;
         let left = wanted.zip_map(&present, |wanted, present| wanted - present);
         let mut left: [S; N] = left.into();
@@ -271,8 +297,10 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         rates: impl Into<SVector<S, N>>,
     ) -> Result<M::JointState<S>, Fault> {
         let rates: [S; N] = given::<S, N>(rates.into().into())?.into();
-        let partition = self.equations.partition(state)?;
         let mut state = *state;
+        // Those it has leave their round-off in what drivers move.
+        state.rates_slice_mut().fill(S::zero());
+        let partition = self.known(&state, Needs::Rates)?;
         write_rates::<M, N, S>(&partition, &rates, true, &mut state);
         Ok(state)
     }

@@ -60,6 +60,8 @@ where
     ///
     /// # Errors
     /// - [`Fault::NotChosen`], [`Fault::ChosenTwice`]: no coordinate is held, or one twice.
+    /// - [`Fault::Parameter`]: it would be held by a parameter that no mechanism can have, such as a
+    ///   negative mass.
     /// - [`Fault::NoEffect`]: a quantity that moves nothing which the other unknowns do not.
     /// - [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2).
     /// - What [`IndependentCoordinates::equilibrium`] refuses.
@@ -147,6 +149,12 @@ where
                 share = share * S::constant(0.5);
             }
             let Some(next) = next else {
+                // What no mechanism can have is the cause where it is sought.
+                for (place, &of) in adjusted.iter().enumerate() {
+                    let value = steps[place] + values[place];
+                    let (mut space, mut rates) = set;
+                    space.adjust(of, value, &mut rates)?;
+                }
                 space.steady(state, &linear.by_positions, rates)?;
                 return Err(no_effect.unwrap_or_else(|| not_converged(taken, left)));
             };

@@ -6,12 +6,15 @@ use nalgebra::SVector;
 
 use super::choice::Coordinate;
 use super::directions::{Along, chosen};
+use super::elimination::at;
 use super::{Equations, IndependentCoordinates};
-use crate::constraints::row_units::characteristic_length;
 use crate::error::{Fault, ParameterError, ParameterFault};
 use crate::math::scalar::Real;
+use crate::math::vec3::read;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
+use crate::mechanism::kernels::is_no_inertia;
+use crate::mechanism::report::BodyKind;
 use crate::state::vector::Array;
 
 /// A quantity that is sought, or along which equilibria are followed: a parameter or an input by
@@ -106,13 +109,15 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         self.parameter(of.index())
     }
 
-    /// Sets one parameter or input, by handle. Of a parameter only that it is finite is checked:
-    /// `new` of the mechanism refuses what no mechanism can have, such as a negative mass.
+    /// Sets one parameter or input, by handle.
     ///
-    /// States satisfy the constraints no longer where a parameter changes a closed loop.
+    /// Where a parameter changes a closed loop, former states do not satisfy the constraints any
+    /// more: [`IndependentCoordinates::state_near`](Self::state_near) closes the loop again.
     ///
     /// # Errors
-    /// [`Fault::Parameter`] for a number that is not finite; the former one then stays.
+    /// [`Fault::Parameter`] for a number that is not finite, or with which a mass or a moment of
+    /// inertia is not positive, three moments are those of no body, or a direction has no length.
+    /// The former number then stays.
     pub fn set_value(&mut self, of: ValueHandle<M>, value: S) -> Result<(), Fault> {
         self.set_parameter(of.index(), value)
     }
@@ -135,19 +140,22 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
                 fault: ParameterFault::NotFinite,
             }));
         }
-        *number = value;
+        let former = core::mem::replace(number, value);
         if info.is_input {
             M::take_inputs(&self.parameters, &mut self.constants);
             M::take_joint_inputs(&self.parameters, &mut self.equations.constants);
             return Ok(());
         }
-        self.constants = M::prepare(&self.parameters);
-        let described = M::initial_state(&self.constants);
-        self.equations = Equations {
-            constants: M::prepare_joints(&self.parameters),
-            length: characteristic_length::<S, M>(&self.constants, &described),
-            ..self.equations
-        };
+        let constants = M::prepare(&self.parameters);
+        if let Some(fault) = refused::<M, S>(info.name, &constants) {
+            if let Some(number) = self.parameters.as_mut_slice().get_mut(place) {
+                *number = former;
+            }
+            return Err(Fault::Parameter(fault));
+        }
+        self.constants = constants;
+        let Equations { places, time, .. } = self.equations;
+        self.equations = Equations::prepared((&self.parameters, &self.constants), places, time);
         Ok(())
     }
 
@@ -177,4 +185,40 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             }
         }
     }
+}
+
+/// What no mechanism can have, of a value: masses and moments of inertia of no body, and constants
+/// that are not finite, as of a direction of length zero.
+fn refused<M: JointRates, S: Real>(
+    value: &'static str,
+    constants: &M::Constants<S>,
+) -> Option<ParameterError> {
+    let mass = M::mass(constants);
+    for body in M::REPORT.bodies {
+        let [m, _, _, moments @ ..]: [S; 6] = match body.kind {
+            BodyKind::Rigid => read(mass.as_slice(), body.velocity),
+            BodyKind::Particle => [at(mass.as_slice(), body.velocity); 6],
+        };
+        let of_body = |attribute, fault| ParameterError {
+            field: body.name,
+            attribute,
+            fault,
+        };
+        if m <= S::zero() {
+            return Some(of_body("mass", ParameterFault::NotPositive));
+        }
+        let [a, b, c] = moments.map(Real::to_f64);
+        if a.min(b).min(c) <= 0.0 {
+            return Some(of_body("inertia", ParameterFault::NotPositive));
+        }
+        if is_no_inertia(a, b, c) {
+            return Some(of_body("inertia", ParameterFault::TriangleInequality));
+        }
+    }
+    let is_finite = constants.as_slice().iter().all(|number| number.is_finite());
+    (!is_finite).then_some(ParameterError {
+        field: value,
+        attribute: "value",
+        fault: ParameterFault::NotFinite,
+    })
 }

@@ -597,3 +597,12 @@ pub(crate) fn bodies_alone<M: Mechanism>(by: LeavesOut) -> Result<(), Fault> {
         }),
     }
 }
+
+/// Whether principal moments of inertia are those of no body: one is larger than the others
+/// together.
+#[doc(hidden)]
+#[must_use]
+pub fn is_no_inertia(a: f64, b: f64, c: f64) -> bool {
+    let excess = |x: f64, y: f64, z: f64| x > (y + z) * (1.0 + 1e-9);
+    excess(a, b, c) || excess(b, c, a) || excess(c, a, b)
+}

@@ -51,6 +51,19 @@ impl<S: Real, M: Mechanism> Passage<S, M> {
         }
     }
 
+    /// Times and pivots of the last two poses and of a next one, where the pivot is least in
+    /// between: a singular configuration may have been passed there.
+    pub(crate) fn dip(&self, time: S, pivot: Pivot<S>) -> Option<[(S, S); 3]> {
+        self.approach.dip((time, pivot.relative))
+    }
+
+    /// Takes three poses in, near to each other, of which the middle one has the least pivot.
+    pub(crate) fn look_between(&mut self, poses: [(S, S); 3], joint: usize) {
+        if self.approach.between(poses) {
+            self.joint = joint;
+        }
+    }
+
     /// About how far (rad) the last pose is from a configuration in which a pivot or a gradient
     /// vanishes, at most about 1.
     pub(crate) fn distance(&self) -> S {

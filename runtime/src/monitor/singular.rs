@@ -140,7 +140,7 @@ impl<S: Real> Approach<S> {
 
     /// The lowest point between three of which the second is lowest; whether it is the smallest
     /// pivot.
-    fn between(&mut self, points: [(S, S); 3]) -> bool {
+    pub(super) fn between(&mut self, points: [(S, S); 3]) -> bool {
         let [a, b, c] = points;
         let (slope, curvature) = parabola(points);
         let mut lowest = b.1 - (slope * slope).quotient(S::constant(4.0) * curvature);
@@ -193,6 +193,17 @@ impl<S: Real> Approach<S> {
     /// The last pivot.
     pub(super) fn last(&self) -> Option<S> {
         self.before[1].map(|(_, pivot)| pivot)
+    }
+
+    /// Times and pivots of the last two steps and of a next one, where the middle one is least and
+    /// has fallen to half of the largest.
+    pub(super) fn dip(&self, next: (S, S)) -> Option<[(S, S); 3]> {
+        let [Some(first), Some(second)] = self.before else {
+            return None;
+        };
+        let is_least = second.1 < first.1 && second.1 <= next.1;
+        let has_fallen = second.1 < S::constant(0.5) * self.largest;
+        (is_least && has_fallen).then_some([first, second, next])
     }
 
     /// The last pivot over the largest.

@@ -1,6 +1,7 @@
 //! The motion of a mechanism whose drivers leave it no freedom: positions, velocities,
 //! accelerations, and what it takes.
 
+mod across;
 mod motion;
 
 use core::fmt::{self, Debug};
@@ -40,7 +41,10 @@ use crate::state::vector::{Array, StateParts};
 /// mechanism's size. A step is shortened where the pose that is found is far from the one that
 /// positions, velocities and accelerations predict, or where its velocities are. The relative
 /// pivots are followed along the way: a singular configuration, at which another branch begins, is
-/// among [`KinematicReport::warnings`], with its joint.
+/// among [`KinematicReport::warnings`], with its joint. The motion goes straight on through it. A
+/// report that falls on such a configuration, or nearer to it than the digits of a pose tell, has
+/// position and velocity. Accelerations, reactions and efforts are refused there by the sample, by
+/// [`Fault::Singular`]: what the motion takes has no limit.
 ///
 /// The evaluation follows the formulation: [`StandardLagrange`](crate::StandardLagrange) where the
 /// equations are independent; where some are redundant, [`Penalty`](crate::Penalty) or

@@ -51,12 +51,12 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     pub(crate) fn evaluated(
         view: View<'a, S, M>,
         dynamics: &'a dyn Evaluate<S, M>,
-        evaluation: Evaluation<S, M>,
+        evaluation: Result<Evaluation<S, M>, Fault>,
     ) -> Self {
         Self {
             view,
             dynamics,
-            evaluation: OnceCell::from(Ok(evaluation)),
+            evaluation: OnceCell::from(evaluation),
             companion: None,
         }
     }

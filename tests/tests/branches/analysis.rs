@@ -1,7 +1,11 @@
 //! A kinematic analysis stays on its branch however far apart its reports are.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_8, PI, TAU};
+
 use holonom::Warning;
-use holonom::joints::{AngleDriver, Cylindrical, Revolute, Spherical};
+use holonom::joints::{
+    AngleDriver, Cylindrical, DisplacementDriver, Prismatic, Revolute, Spherical,
+};
 use holonom::prelude::*;
 
 use super::linkages::{CRANK_ROCKER, DrivenFourBar, Lengths, Random};
@@ -93,6 +97,89 @@ fn a_branch_point_is_passed_straight_on_and_said() {
     }
 }
 
+/// Reports that fall on the flat configurations, or next to them, change nothing: positions and
+/// rates are right there too, and only what the motion takes is refused.
+#[test]
+fn reports_on_a_branch_point_are_right() {
+    let mechanism = Parallelogram::default();
+    let handles = Parallelogram::HANDLES;
+    for every_so in [
+        0.01,
+        0.3,
+        FRAC_PI_2,
+        FRAC_PI_4 * (1.0 + 1e-9),
+        FRAC_PI_8 * (1.0 + 1e-5),
+    ] {
+        let report = KinematicAnalysis::new(&mechanism, StandardLagrange)
+            .run(0.0_f64..=5.0, every(every_so), |sample| {
+                let time = sample.time();
+                let off = (sample.angle(handles.d) - time) / TAU;
+                assert!((off - off.round()).abs() < 1e-10, "{time}: {off:e}");
+                let rate = sample.angle_rate(handles.d);
+                assert!((rate - 1.0).abs() < 1e-7, "{time}: {rate}");
+                let beside = ((time - FRAC_PI_2) / PI).fract().abs() * PI;
+                let beside = beside.min(PI - beside);
+                match sample.driving_effort(handles.motor) {
+                    Ok(_) => assert!(beside > 1e-5, "{time}"),
+                    Err(Fault::Singular { .. }) => assert!(beside < 3e-3, "{time}"),
+                    Err(fault) => panic!("{fault}"),
+                }
+                ControlFlow::Continue(())
+            })
+            .unwrap_or_else(|error| panic!("every {every_so}: {error}"));
+        let mut told = report.warnings().into_iter();
+        assert!(told.any(|warning| matches!(warning, Warning::BranchPoint { .. })));
+    }
+}
+
+/// A slider that a smooth law drives through the dead points of its crank, which turns at 1 rad/s.
+#[derive(Mechanism)]
+struct Piston {
+    #[body(mass = 0.5, inertia = [0.001, 0.001, 0.002], position = [0.0, 0.15, 0.0])]
+    crank: Body,
+    #[body(mass = 0.4, inertia = [0.001, 0.003, 0.003], position = [0.3, 0.15, 0.0])]
+    rod: Body,
+    #[body(mass = 0.8, inertia = [0.001, 0.001, 0.001], position = [sqrt(0.4), 0.0, 0.0])]
+    slider: Body,
+    #[joint(between = [ground, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    a: Revolute,
+    #[joint(between = [crank, rod], point = [0.0, 0.3, 0.0])]
+    b: Spherical,
+    #[joint(between = [rod, slider], point = [sqrt(0.4), 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    c: Cylindrical,
+    #[joint(between = [ground, slider], point = [sqrt(0.4), 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    d: Prismatic,
+    #[joint(
+        between = [ground, slider],
+        point = [sqrt(0.4), 0.0, 0.0],
+        axis = [1.0, 0.0, 0.0],
+        motion = sqrt(0.49 - 0.09 * cos(time) * cos(time)) - 0.3 * sin(time) - sqrt(0.4)
+    )]
+    motor: DisplacementDriver,
+}
+
+/// The pivot that vanishes is the least one only near the dead point, so that steps may pass over
+/// that.
+#[test]
+fn a_dead_point_is_passed_whatever_is_reported() {
+    let mechanism = Piston::default();
+    let handles = Piston::HANDLES;
+    for every_so in [0.005, 0.01, 0.02, 0.05, 0.1, 0.3, 0.7, 1.0, FRAC_PI_2] {
+        let report = KinematicAnalysis::new(&mechanism, StandardLagrange)
+            .run(0.0_f64..=4.0, every(every_so), |sample| {
+                let off = (sample.angle(handles.a) - sample.time()) / TAU;
+                assert!((off - off.round()).abs() < 1e-10, "{off:e}");
+                let rate = sample.angle_rate(handles.a);
+                assert!((rate - 1.0).abs() < 1e-7, "{rate}");
+                ControlFlow::Continue(())
+            })
+            .unwrap_or_else(|error| panic!("every {every_so}: {error}"));
+        let mut told = report.warnings().into_iter();
+        let is_told = told.any(|warning| matches!(warning, Warning::BranchPoint { .. }));
+        assert!(is_told, "every {every_so}");
+    }
+}
+
 /// A crank that is turned by a whole turn between two reports, from rest to rest.
 #[derive(Mechanism)]
 struct Pulse {
@@ -110,11 +197,7 @@ fn a_turn_between_two_reports_is_followed() {
     let handles = Pulse::HANDLES;
     let report = KinematicAnalysis::new(&mechanism, StandardLagrange)
         .run(0.0..=3.0, every(3.0), |sample| {
-            let turned = if sample.time() > 2.0 {
-                std::f64::consts::TAU
-            } else {
-                0.0
-            };
+            let turned = if sample.time() > 2.0 { TAU } else { 0.0 };
             assert!((sample.angle(handles.motor) - turned).abs() < 1e-9);
             ControlFlow::Continue(())
         })

@@ -116,7 +116,7 @@ fn discrete_steps() {
     coordinates = "joints",
     kernels = [mass, inverse, jacobian]
 )]
-struct Linkage {
+pub(super) struct Linkage {
     #[param(like = 0.3)]
     crank_length: f64,
     #[param(like = 0.8)]

@@ -14,4 +14,5 @@ mod loops;
 mod reference;
 mod regressor;
 mod regulator;
+mod singular;
 mod trim;

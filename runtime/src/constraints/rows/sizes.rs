@@ -44,6 +44,12 @@ impl<S: Real, M: Mechanism> Sizes<S, M> {
             .sqrt()
     }
 
+    /// The size of a row, and what its terms resolve; `None` where there is no such row.
+    pub(crate) fn of_row(&self, row: usize) -> Option<(S, S)> {
+        let natural = self.natural.as_slice().get(row)?;
+        Some((*natural, *self.resolution.as_slice().get(row)?))
+    }
+
     /// The row of the largest violation, and this in sizes of the row. NaN if a violation is NaN.
     pub(crate) fn worst(&self, violation: &M::Multipliers<S>, tolerance: S) -> (usize, S) {
         let mut worst = (0, S::zero());

@@ -44,7 +44,9 @@ const LAST_STEP: f64 = 1.5;
 pub(super) struct Found<S: Real, M: Mechanism> {
     pub(super) time: S,
     pub(super) state: M::State<S>,
-    pub(super) evaluation: Evaluation<S, M>,
+    pub(super) accelerations: M::Velocities<S>,
+    /// [`Fault::Singular`] where the equations do not determine the motion.
+    pub(super) evaluation: Result<Evaluation<S, M>, Fault>,
 }
 
 impl<S: Real, M: Mechanism> Clone for Found<S, M> {
@@ -125,7 +127,8 @@ where
         Ok(Found {
             time,
             state,
-            evaluation,
+            accelerations: *evaluation.rates.velocities(),
+            evaluation: Ok(evaluation),
         })
     }
 
@@ -139,13 +142,14 @@ where
 
     /// The smallest pivot without a compliance; `None` where equations are kept that depend on
     /// others.
-    fn pivot(&self, found: &Found<S, M>) -> Option<Pivot<S>> {
+    pub(super) fn pivot(&self, found: &Found<S, M>) -> Option<Pivot<S>> {
         if M::REPORT.equations == 0 || M::REPORT.keeps_redundant() {
             None
-        } else if F::Terms::COMPLIANT {
-            Some(self.dynamics.rigid_pivot(found.time, &found.state))
         } else {
-            Some(found.evaluation.pivot)
+            match &found.evaluation {
+                Ok(evaluation) if !F::Terms::COMPLIANT => Some(evaluation.pivot),
+                _ => Some(self.dynamics.rigid_pivot(found.time, &found.state)),
+            }
         }
     }
 
@@ -172,8 +176,20 @@ where
                 found.time + step
             };
             let step = time - found.time;
-            match self.step(&found, time) {
+            let mut stepped = self.step(&found, time);
+            if let Err(fault) = &stepped
+                && self.may_be_singular(fault)
+                && let Some(across) = self.across(&found, time)
+            {
+                stepped = Ok(across);
+            }
+            match stepped {
                 Ok((next, motion)) => {
+                    if let Some(pivot) = self.pivot(&next)
+                        && let Some(dip) = self.passage.dip(next.time, pivot)
+                    {
+                        self.look_into(&found, dip);
+                    }
                     self.take(&next, motion);
                     self.steps += 1;
                     self.longest = self.longest.max(step);
@@ -205,15 +221,31 @@ where
         }
     }
 
+    /// Whether the cause may be that the equations do not determine the motion at the end of a step.
+    fn may_be_singular(&self, fault: &Fault) -> bool {
+        match fault {
+            Fault::Undetermined { .. } | Fault::Singular { .. } => true,
+            // Velocities are lost first.
+            Fault::NotConverged { .. } | Fault::Jump { .. } => {
+                self.passage.distance() < S::constant(TURN)
+            }
+            _ => false,
+        }
+    }
+
     /// How long a step may be (s) for its turn, by velocities and accelerations.
     fn bound(&self, from: &Found<S, M>) -> S {
-        let speed = reach::<S, M>(from.state.velocities(), self.length).size;
-        let accelerations = from.evaluation.rates.velocities();
-        let acceleration = reach::<S, M>(accelerations, self.length).size;
         let near = S::constant(0.5) * self.passage.distance();
         let turn = near
             .min(S::constant(TURN))
             .max(S::constant(TURN_NEAR_SINGULAR));
+        self.duration(from, turn)
+    }
+
+    /// How long (s) so much motion (rad) takes.
+    pub(super) fn duration(&self, from: &Found<S, M>, turn: S) -> S {
+        let speed = reach::<S, M>(from.state.velocities(), self.length).size;
+        let acceleration = reach::<S, M>(&from.accelerations, self.length).size;
         // speed t + acceleration t^2 / 2 = turn.
         let root = (speed * speed + S::constant(2.0) * acceleration * turn).sqrt();
         let bound = (S::constant(2.0) * turn).quotient(speed + root);
@@ -225,11 +257,10 @@ where
     }
 
     /// The pose after a step, and how far (rad) it led.
-    fn step(&mut self, from: &Found<S, M>, time: S) -> Result<(Found<S, M>, S), Fault> {
-        let accelerations = from.evaluation.rates.velocities();
+    pub(super) fn step(&mut self, from: &Found<S, M>, time: S) -> Result<(Found<S, M>, S), Fault> {
         let constants = self.dynamics.constants();
         let step = time - from.time;
-        let near = advanced::<S, M>(constants, &from.state, accelerations, step);
+        let near = advanced::<S, M>(constants, &from.state, &from.accelerations, step);
         let mut found = self.find(time, near)?;
         turns::follow::<S, M>(
             self.dynamics.constants(),
