@@ -57,9 +57,6 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         directions: [Direction<M>; K],
     ) -> Result<Sensitivities<M, K, S>, Fault> {
         let (parameters, start) = self.start_along(start, &directions)?;
-        Ok(Sensitivities {
-            parameters,
-            start: Some(start),
-        })
+        Ok(Sensitivities::of(parameters, Some(start)))
     }
 }
