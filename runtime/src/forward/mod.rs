@@ -5,6 +5,7 @@
 
 mod columns;
 pub(crate) mod interval;
+mod shares;
 
 use core::array::from_fn;
 use core::cmp::Ordering;
@@ -13,6 +14,7 @@ use core::ops::{Add, Mul, Neg, Sub};
 pub(crate) use columns::{Lifted, by_forward_numbers, lifted, with_differences};
 
 use crate::math::scalar::{Real, Scalar};
+use crate::state::vector::greater;
 
 /// A number and its derivatives along `N` directions: what is computed with it carries them along,
 /// exact to round-off (forward mode; Griewank and Walther, *Evaluating Derivatives*, chapter 3).
@@ -293,6 +295,21 @@ impl<S: Real, const N: usize> Real for Forward<S, N> {
 
     fn plain(self) -> Self {
         Self::fixed(self.value)
+    }
+
+    const CARRIES_DERIVATIVES: bool = true;
+
+    fn derivative(self, direction: usize) -> Option<Self> {
+        self.derivatives.get(direction).copied().map(Self::fixed)
+    }
+
+    fn with_larger_derivatives(self, other: Self) -> Self {
+        let larger = |x: S, y: S| greater(x.abs(), y.abs());
+        Self::new(self.value, self.both(other, larger))
+    }
+
+    fn largest_share(elements: impl Iterator<Item = [Self; 3]> + Clone, floor: Self) -> Self {
+        Self::fixed(shares::largest(elements, floor))
     }
 }
 

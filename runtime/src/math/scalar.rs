@@ -169,6 +169,36 @@ pub trait Real: Scalar + PartialOrd {
     fn plain(self) -> Self {
         self
     }
+
+    /// Whether numbers carry derivatives, whose errors count in a step control beside their own.
+    #[doc(hidden)]
+    const CARRIES_DERIVATIVES: bool = false;
+
+    /// The derivative along a direction, as a number that depends on nothing; `None` where there
+    /// are no so many.
+    #[doc(hidden)]
+    fn derivative(self, direction: usize) -> Option<Self> {
+        let _ = direction;
+        None
+    }
+
+    /// A number whose derivatives are the larger ones of those of two, in size.
+    #[doc(hidden)]
+    #[must_use]
+    fn with_larger_derivatives(self, other: Self) -> Self {
+        let _ = other;
+        self
+    }
+
+    /// The largest of some increments, each relative to the larger of two numbers and a floor; of
+    /// `[increment, number, number]`. NaN if any is NaN.
+    #[doc(hidden)]
+    fn largest_share(elements: impl Iterator<Item = [Self; 3]> + Clone, floor: Self) -> Self {
+        elements.fold(Self::zero(), |most, [increment, x, y]| {
+            let scale = x.abs().max(y.abs()).max(floor);
+            most.max(increment.abs().quotient(scale))
+        })
+    }
 }
 
 /// Elementary functions on `f64` and `f32`, from the standard library or from libm.

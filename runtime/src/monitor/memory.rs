@@ -201,7 +201,11 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
         let mean = self.action.quotient(self.time - self.start);
         let energy = S::constant(2.0) * (mean - self.least);
         let lives = (S::constant(0.5) * self.taken).quotient(energy);
-        if lives > S::one() && lives.is_finite() && energy > S::zero() && !self.goes_on(measure) {
+        if lives > S::one()
+            && lives.plain().is_finite()
+            && energy > S::zero()
+            && !self.goes_on(measure)
+        {
             lives
         } else {
             S::one()

@@ -17,6 +17,7 @@
 //! | compliance | `compliance.rs` | every sixteenth step of a penalty |
 //! | unconverged | `unconverged.rs` | every step |
 //! | tolerance and size | `control.rs` | every step |
+//! | derivatives | `growth.rs` | every step that carries some |
 //!
 //! Three values judge nothing, and tell the others what counts: how far the mechanism has moved
 //! (`travel.rs`), how long the motion remembers its errors (`memory.rs`), and whether it is at rest
@@ -40,6 +41,7 @@ mod energy;
 mod events;
 mod found;
 mod gradients;
+mod growth;
 mod limits;
 mod memory;
 mod motion;
@@ -77,6 +79,7 @@ use self::compliance::Compliance;
 use self::control::Control;
 use self::energy::Energy;
 use self::gradients::Gradients;
+use self::growth::Growth;
 use self::memory::Memory;
 use self::motion::{Motion, MotionMeasure};
 use self::norm_drift::NormDrift;
@@ -118,6 +121,7 @@ pub struct Monitor<S: Scalar, M: Mechanism> {
     compliance: Compliance<S>,
     unconverged: Unconverged<S>,
     control: Control<S>,
+    growth: Growth<S>,
     /// The rate (1/s) at which the formulation takes violations away; zero where they stay.
     decay: S,
     /// The time of the step whose violations and energies were taken last.
@@ -145,6 +149,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             compliance: Compliance::none(),
             unconverged: Unconverged::none(),
             control: Control::none(),
+            growth: Growth::from(time),
             decay: S::zero(),
             looked: time,
         }
@@ -162,6 +167,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         self.control = self.control.over(integrator);
         self.phase_error = self.phase_error.over(model);
         self.norm_drift = self.norm_drift.over(model);
+        self.growth = self.growth.over(integrator);
         self
     }
 
@@ -212,6 +218,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         self.pivots.step(step);
         self.gradients.step(step);
         self.norm_drift.step(step);
+        self.growth.step(step, self.travel.radians);
     }
 
     /// A way (m) that says of no motion so far.

@@ -147,7 +147,7 @@ impl<S: Real> Approach<S> {
         if passes_zero(points) {
             lowest = S::zero();
         }
-        let is_least = lowest.is_finite() && lowest < self.least.pivot;
+        let is_least = lowest.plain().is_finite() && lowest < self.least.pivot;
         if is_least {
             let middle = b.0 - S::constant(0.5) * slope.quotient(curvature);
             self.least = Nearest {
@@ -160,7 +160,7 @@ impl<S: Real> Approach<S> {
 
     /// The smallest relative pivot, with its time.
     pub(super) fn least(&self) -> Option<Nearest<S>> {
-        self.least.pivot.is_finite().then_some(self.least)
+        self.least.pivot.plain().is_finite().then_some(self.least)
     }
 
     /// Whether a step was so long that it may have passed over a singular configuration unseen: the

@@ -35,6 +35,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             self.round_off.verdict(run),
             self.energy.coarse_steps(run),
             self.phase_error.verdict(run),
+            self.growth.verdict(run),
         ])
     }
 

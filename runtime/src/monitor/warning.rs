@@ -155,6 +155,14 @@ pub enum Warning {
         /// The time (s) of the first.
         time: f64,
     },
+    /// The derivatives that a run carries have grown as the errors of an unstable motion do, or of
+    /// steps that are too long for what oscillates.
+    GrowingDerivatives {
+        /// The number of the direction.
+        direction: usize,
+        /// The largest derivative of a coordinate or a velocity of a body.
+        size: f64,
+    },
 }
 
 impl Warning {
@@ -316,6 +324,12 @@ impl fmt::Display for Warning {
                 Measured(bias),
                 Measured(travel)
             ),
+            Self::GrowingDerivatives { direction, size } => write!(
+                f,
+                "the derivatives along direction {direction} have grown to {}, and what the motion is off by grows as they do: compare with a smaller \
+                 tolerance or step, or with a shorter run",
+                Measured(size)
+            ),
             Self::Unconverged {
                 corrections,
                 evaluations,
@@ -351,7 +365,7 @@ fn amount(
 }
 
 /// The kinds of warning that one run may raise.
-const KINDS: usize = 16;
+const KINDS: usize = 17;
 
 /// The warnings of a run, the gravest first; empty where nothing is.
 ///

@@ -57,10 +57,10 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         directions: [Direction<M>; K],
     ) -> Result<Sensitivities<M, K, S>, Fault> {
         let (parameters, start) = self.start_along(start, &directions)?;
+        let along = Sensitivities::of(parameters, Some(start));
         Ok(Sensitivities {
-            parameters,
-            start: Some(start),
             passes_limits: self.passes_limits,
+            ..along
         })
     }
 }

@@ -3,8 +3,8 @@
 use crate::formulation::{AugmentedLagrangian, Baumgarte, Penalty, StandardLagrange};
 use crate::forward::Forward;
 use crate::integrate::{
-    AdamsBashforthMoulton4, Adaptive, BogackiShampine3, DormandPrince5, DormandPrince8, FixedStep,
-    Heun, Kutta3, Midpoint, Rk4, SemiImplicitEuler, StepLimits, Tolerance,
+    Adams, AdamsBashforthMoulton4, Adaptive, BogackiShampine3, DormandPrince5, DormandPrince8,
+    FixedStep, Heun, Kutta3, Midpoint, Rk4, SemiImplicitEuler, StepLimits, Tolerance,
 };
 use crate::math::scalar::Real;
 
@@ -18,12 +18,20 @@ use crate::math::scalar::Real;
     note = "take `Rk4::every(step)` or `DormandPrince::new(tolerance)`: an implicit method ends its \
             iteration when the values are right, and the derivatives are not yet"
 )]
-pub trait Differentiable<S: Real, const K: usize> {
+pub trait Differentiable<S: Real, const K: usize>: Sized {
     /// The same for numbers that carry derivatives along `K` directions.
     type Carrying;
 
     /// Its settings depend on nothing.
     fn carrying(self) -> Self::Carrying;
+
+    /// The same for directions of such scales: changes of parameters that count. A method that
+    /// controls its steps holds derivatives to the absolute tolerance of values over them.
+    #[must_use]
+    fn scaled(self, scales: &[S; K]) -> Self::Carrying {
+        let _ = scales;
+        self.carrying()
+    }
 }
 
 impl<S: Real, const K: usize> Differentiable<S, K> for StandardLagrange {
@@ -81,6 +89,16 @@ impl<S: Real, const K: usize> Differentiable<S, K> for Tolerance<S> {
         Tolerance {
             relative: Forward::fixed(self.relative),
             absolute: Forward::fixed(self.absolute),
+        }
+    }
+
+    fn scaled(self, scales: &[S; K]) -> Self::Carrying {
+        Tolerance {
+            relative: Forward::fixed(self.relative),
+            absolute: Forward::new(
+                self.absolute,
+                scales.map(|scale| self.absolute.quotient(scale)),
+            ),
         }
     }
 }
@@ -148,8 +166,34 @@ macro_rules! embedded {
                     pair: self.pair,
                 }
             }
+
+            fn scaled(self, scales: &[S; K]) -> Self::Carrying {
+                Adaptive {
+                    tolerance: self.tolerance.scaled(scales),
+                    limits: self.limits.carrying(),
+                    pair: self.pair,
+                }
+            }
         }
     )*};
 }
 
 embedded!(BogackiShampine3, DormandPrince5, DormandPrince8);
+
+impl<S: Real, const K: usize> Differentiable<S, K> for Adams<S> {
+    type Carrying = Adams<Forward<S, K>>;
+
+    fn carrying(self) -> Self::Carrying {
+        Adams {
+            tolerance: self.tolerance.carrying(),
+            limits: self.limits.carrying(),
+        }
+    }
+
+    fn scaled(self, scales: &[S; K]) -> Self::Carrying {
+        Adams {
+            tolerance: self.tolerance.scaled(scales),
+            limits: self.limits.carrying(),
+        }
+    }
+}

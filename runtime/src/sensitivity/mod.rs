@@ -1,8 +1,9 @@
 //! Runs whose numbers carry derivatives: how what is read changes with parameters, inputs and the
 //! start (forward sensitivities).
 //!
-//! A run over [`Forward`] numbers is the plain run, step by step. Numbers are ordered by their
-//! values. The steps of a control are no functions of what they were chosen by.
+//! A run over [`Forward`] numbers is the plain run, but for the choice of its steps. Numbers are ordered by their
+//! values. The steps of a control are no functions of what they were chosen by, and are held to a
+//! tolerance of values and derivatives together (`forward/shares.rs`).
 //! `differentiable.rs` says through what derivatives go. Newton's method ends by values, when
 //! derivatives are one iteration behind, so implicit methods are not among that.
 //!
@@ -17,6 +18,7 @@ mod least_squares;
 mod simulation;
 mod start;
 
+use core::array::from_fn;
 use core::fmt::{self, Debug};
 
 #[cfg(feature = "std")]
@@ -27,6 +29,7 @@ pub use simulation::SensitivitySimulation;
 
 use crate::dynamics::{Dynamics, parameters};
 use crate::error::Fault;
+use crate::error::setting::positive;
 use crate::formulation::Formulation;
 use crate::forward::{Forward, lifted};
 use crate::independent::vary;
@@ -44,6 +47,7 @@ pub struct Sensitivities<M: Mechanism, const K: usize, S: Real = f64> {
     pub(crate) start: Option<M::State<Forward<S, K>>>,
     /// Whether the limits of the description are left out.
     pub(crate) passes_limits: bool,
+    scales: Option<[S; K]>,
 }
 
 impl<M: Mechanism, const K: usize, S: Real> Clone for Sensitivities<M, K, S> {
@@ -118,17 +122,57 @@ pub trait SensitivityExt: Mechanism {
             let place = parameters.as_mut_slice().get_mut(value.index());
             vary(place, direction);
         }
-        Ok(Sensitivities {
-            parameters,
-            start: None,
-            passes_limits: false,
-        })
+        Ok(Sensitivities::of(parameters, None))
     }
 }
 
 impl<M: Mechanism> SensitivityExt for M {}
 
 impl<M: Mechanism, const K: usize, S: Real> Sensitivities<M, K, S> {
+    fn of(
+        parameters: M::Parameters<Forward<S, K>>,
+        start: Option<M::State<Forward<S, K>>>,
+    ) -> Self {
+        Self {
+            parameters,
+            start,
+            passes_limits: false,
+            scales: None,
+        }
+    }
+
+    /// Gives each direction a scale, in its unit: a change that counts. A step control holds
+    /// derivatives to its relative tolerance, and to its absolute one over the scale.
+    ///
+    /// By default it is the size of the parameter or the input; one (unit of SI) where that is
+    /// zero, and of coordinates and rates of the start.
+    ///
+    /// # Errors
+    /// A scale that is not finite and positive.
+    pub fn scales(mut self, scales: [S; K]) -> Result<Self, Fault> {
+        for scale in scales {
+            positive("scale of a direction", scale)?;
+        }
+        self.scales = Some(scales);
+        Ok(self)
+    }
+
+    /// The scales that were given, or those of the parameters.
+    fn known_scales(&self) -> [S; K] {
+        self.scales.unwrap_or_else(|| {
+            from_fn(|direction| {
+                let along = self.parameters.as_slice().iter().filter(|number| {
+                    let slope = number.derivatives().get(direction).copied();
+                    slope.is_some_and(|slope| slope != S::zero())
+                });
+                let size = along.fold(S::zero(), |most: S, number| {
+                    Real::max(most, number.value().abs())
+                });
+                if size > S::zero() { size } else { S::one() }
+            })
+        })
+    }
+
     /// Starts from this state, whose numbers carry the derivatives of the start.
     ///
     /// A run refuses a start whose derivatives violate those of the constraints: where a parameter
@@ -158,7 +202,8 @@ impl<M: Mechanism, const K: usize, S: Real> Sensitivities<M, K, S> {
         F: Differentiable<S, K, Carrying: Formulation<Forward<S, K>>>,
         I: Differentiable<S, K, Carrying: Method<Forward<S, K>>>,
     {
-        SensitivitySimulation::new(self, formulation.carrying(), integrator.carrying())
+        let integrator = integrator.scaled(&self.known_scales());
+        SensitivitySimulation::new(self, formulation.carrying(), integrator)
     }
 
     /// The equations of motion with a formulation, for evaluations and for steps of one's own.

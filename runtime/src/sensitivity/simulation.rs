@@ -27,10 +27,7 @@ type State<M, const K: usize, S> = <M as Mechanism>::State<Forward<S, K>>;
 /// A mechanism along `K` directions, a formulation and an explicit method, ready to run: by
 /// [`Sensitivities::simulation`].
 ///
-/// A run takes the steps of the plain one. It has no monitor: what [`RunReport::warnings`] say of
-/// the plain run holds of it.
-///
-/// [`RunReport::warnings`]: crate::RunReport::warnings
+/// A step control holds values and derivatives to its tolerance, see [`Sensitivities::scales`].
 pub struct SensitivitySimulation<
     M: Mechanism,
     F,
@@ -66,10 +63,7 @@ where
         let simulation = Simulation::of_parameters(along.parameters, formulation, integrator);
         Self {
             along,
-            simulation: simulation
-                .unmonitored()
-                .initial_state(along.start())
-                .without_limits(),
+            simulation: simulation.initial_state(along.start()).without_limits(),
         }
     }
 }
@@ -101,6 +95,13 @@ where
             along: self.along,
             simulation: self.simulation.forces(law),
         }
+    }
+
+    /// Runs without the monitor, see [`Simulation::unmonitored`].
+    #[must_use]
+    pub fn unmonitored(mut self) -> Self {
+        self.simulation = self.simulation.unmonitored();
+        self
     }
 
     /// Solves the equations of motion in relative (joint) coordinates.

@@ -4,7 +4,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::versine;
 use crate::state::each::EachOfJoints;
 use crate::state::vector::{
-    Vector, are_of_one_turn, greater, greatest, plus, weighted_norm, zero_if_finite,
+    Vector, are_of_one_turn, greater, greatest, plus, shares, weighted_norm, zero_if_finite,
     zero_if_finite_after,
 };
 
@@ -207,6 +207,11 @@ fn more_increments<
         }
     }
     sums
+}
+
+/// One, with the derivatives of the angle of a pair.
+fn a_radian<S: Real>([c, s]: [S; 2]) -> S {
+    S::one() + (s * c.plain() - c * s.plain())
 }
 
 /// Pairs, turned by angles (rad).
@@ -521,13 +526,24 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const
     where
         S: Real,
     {
-        let scale = greater(S::one(), floor);
         let mut angles = increments(&terms);
+        let rest = [&self.rest, &other.rest];
+        let rates = [&self.rates, &other.rates];
+        if S::CARRIES_DERIVATIVES {
+            let ends = self.pairs.iter().zip(&other.pairs);
+            let angles = angles.into_iter().zip(ends);
+            let angles = angles.map(|(angle, (&x, &y))| [angle, a_radian(x), a_radian(y)]);
+            let rest = shares(rest, plus(&[S::zero(); REST], &terms, |x: &Self| &x.rest));
+            let rates = shares(
+                rates,
+                plus(&[S::zero(); RATES], &terms, |x: &Self| &x.rates),
+            );
+            return S::largest_share(angles.chain(rest).chain(rates), floor);
+        }
+        let scale = greater(S::one(), floor);
         for angle in &mut angles {
             *angle = angle.abs().quotient(scale);
         }
-        let rest = [&self.rest, &other.rest];
-        let rates = [&self.rates, &other.rates];
         greatest(&angles)
             .max(weighted_norm(rest, floor, &terms, |x: &Self| &x.rest))
             .max(weighted_norm(rates, floor, &terms, |x: &Self| &x.rates))

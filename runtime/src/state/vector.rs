@@ -161,6 +161,13 @@ pub trait Vector<S: Scalar>: Clone {
         S: Real,
     {
         let increment = self.zip(self, |_, _| S::zero()).plus(terms);
+        if S::CARRIES_DERIVATIVES {
+            let elements = (0..self.length()).map(|place| {
+                let of = |vector: &Self| vector.element(place);
+                [of(&increment), of(self), of(other)]
+            });
+            return S::largest_share(elements, floor);
+        }
         let scale = self.zip(other, |x, y| x.abs().max(y.abs()).max(floor));
         let mut norm = S::zero();
         let ratio = increment.zip(&scale, |x, scale| x.abs().quotient(scale));
@@ -246,6 +253,10 @@ impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
     where
         S: Real,
     {
+        if S::CARRIES_DERIVATIVES {
+            let increments = [S::zero(); N].plus(terms);
+            return S::largest_share(shares([self, other], increments), floor);
+        }
         weighted_norm([self, other], floor, &terms, |direction| direction)
     }
 
@@ -288,6 +299,18 @@ pub(crate) fn weighted_norm<S: Real, X, const N: usize>(
         *ratio = ratio.abs().quotient(scale);
     }
     greatest(&ratio)
+}
+
+/// Of a part of a state what [`Real::largest_share`] takes.
+pub(crate) fn shares<S: Real, const N: usize>(
+    [from, to]: [&[S; N]; 2],
+    increments: [S; N],
+) -> impl Iterator<Item = [S; 3]> + Clone {
+    let ends = from.iter().zip(to);
+    increments
+        .into_iter()
+        .zip(ends)
+        .map(|(increment, (&x, &y))| [increment, x, y])
 }
 
 /// The greater of two numbers; the first if either is NaN.
@@ -475,6 +498,13 @@ impl<S: Scalar, const Q: usize, const U: usize, const A: usize> Vector<S> for St
     {
         let coordinates = [&self.coordinates, &other.coordinates];
         let velocities = [&self.velocities, &other.velocities];
+        if S::CARRIES_DERIVATIVES {
+            let zero = Self::of_parts([S::zero(); Q], [S::zero(); U]);
+            let increments = zero.plus(terms);
+            let moved = shares(coordinates, increments.coordinates);
+            let rates = shares(velocities, increments.velocities);
+            return S::largest_share(moved.chain(rates), floor);
+        }
         let moved = weighted_norm(coordinates, floor, &terms, |x: &Self| &x.coordinates);
         moved.max(weighted_norm(velocities, floor, &terms, |x: &Self| {
             &x.velocities

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod adjoint;
+mod at_rest;
 mod closed_forms;
 mod differences;
 mod estimated;

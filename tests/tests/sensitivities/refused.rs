@@ -6,7 +6,7 @@ use holonom::prelude::*;
 /// A pendulum whose bob hangs at a parameter's length.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both", kernels = [mass])]
-struct Rod {
+pub(super) struct Rod {
     #[param]
     length: f64,
     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, length, 0.0])]
