@@ -48,6 +48,9 @@ pub(super) fn check(
             for RedundantRow { joint, row, .. } in &model.independence.redundant {
                 model.joints[*joint].dropped.push(*row);
             }
+            for &(joint, components) in &model.independence.components {
+                model.joints[joint].components.push(components);
+            }
             model.independence.dropped = true;
         }
     }

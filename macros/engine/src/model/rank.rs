@@ -1,5 +1,7 @@
 //! What is known about the rank of the constraints.
 
+use super::mechanism::Components;
+
 /// What a mechanism asks for where equations depend on each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Redundant {
@@ -98,6 +100,9 @@ pub struct Independence {
     /// Times (s) and coordinates of the bodies along a motion that all equations leave free, from
     /// the reference configuration on, where there was a choice of equations to be made.
     pub sweep: Vec<(f64, Vec<f64>)>,
+    /// The components of vector equations, by joint and first equation, to which the places of
+    /// redundant equations refer where they are not along global axes.
+    pub components: Vec<(usize, (usize, Components))>,
 }
 
 impl Independence {

@@ -25,7 +25,8 @@
 //!
 //! - A row that depends on others at all configurations is redundant: refused, dropped or kept
 //!   (`check/redundant.rs`). Which rows stay: `docs/decisions/004-choice-of-rows.md`.
-//! - A vector equation that loses a component becomes scalar products with global unit vectors.
+//! - A vector equation that loses a component becomes scalar products with unit vectors: global
+//!   ones, or such that are fixed on a body where a loop turns in space (`components.rs`).
 //! - A dropped row must hold wherever the kept rows let the mechanism move
 //!   (`contradiction::by_chance`). Constraints that touch, such as a bar that a turn shortens by
 //!   second order only, leave no other configuration and depend on each other at the start.
@@ -62,6 +63,7 @@
 mod assemble;
 mod choice;
 pub(crate) mod closing;
+mod components;
 mod contradiction;
 mod dense;
 mod displacement;
@@ -93,6 +95,61 @@ use crate::model::{Contradiction, Independence, Model, Rank, RedundantRow};
 /// Finds the rank of a model's constraints, and which of them follow from others.
 #[must_use]
 pub fn judge(model: &Model) -> Independence {
+    judged(model).independence
+}
+
+/// The same of a model whose redundant equations are to be left out: vector equations are split
+/// along directions by which the others stay independent ([`components`]).
+#[must_use]
+pub fn judge_to_drop(model: &Model) -> Independence {
+    let mut best = judged(model);
+    let turned = std::mem::take(&mut best.components);
+    if !turned.is_empty() {
+        best = judged(&with(model, turned));
+    }
+    // Where no direction is kept, as between two bodies with many points in common, or in a loop
+    // in space.
+    for first in [true, false] {
+        if best.steadiness > TOLERANCE || best.independence.redundant.is_empty() {
+            break;
+        }
+        let other = judged(&with(model, components::of_bodies(model, first)));
+        if other.steadiness > best.steadiness {
+            best = other;
+        }
+    }
+    best.independence
+}
+
+/// A model whose vector equations are split along some directions.
+fn with(model: &Model, components: components::Found) -> Model {
+    let mut model = model.clone();
+    for (joint, components) in components {
+        model.joints[joint].components.push(components);
+    }
+    model
+}
+
+/// What is found of a model.
+struct Judged {
+    independence: Independence,
+    /// The components of vector equations that have to be along directions fixed on bodies.
+    components: components::Found,
+    /// How steady the choice of rows is ([`choice::steadiness`]); infinite without one.
+    steadiness: f64,
+}
+
+impl From<Independence> for Judged {
+    fn from(independence: Independence) -> Self {
+        Self {
+            independence,
+            components: Vec::new(),
+            steadiness: f64::INFINITY,
+        }
+    }
+}
+
+fn judged(model: &Model) -> Judged {
     let mut random = Random::new();
     let not = |rank: Rank| Independence {
         rank,
@@ -101,7 +158,7 @@ pub fn judge(model: &Model) -> Independence {
     let Some((constraints, described)) =
         Constraints::new(model, |velocities| random.motion(velocities))
     else {
-        return not(Rank::NotDecided);
+        return not(Rank::NotDecided).into();
     };
     let Some(start) = constraints.assembled(&described) else {
         let found = contradiction::nowhere(&constraints, &described, &described, &mut random);
@@ -117,11 +174,12 @@ pub fn judge(model: &Model) -> Independence {
             contradictions: found.unwrap_or_default(),
             is_driven: constraints.is_driven(),
             ..not(Rank::NotAssembled)
-        };
+        }
+        .into();
     };
     let configurations = walk(&constraints, start.clone(), None, &mut random);
     let Some(mut found) = Found::at(&constraints, configurations) else {
-        return not(Rank::NotDecided);
+        return not(Rank::NotDecided).into();
     };
     let has_choice = found.rank < model.layout().rows;
     let mut missed = Vec::new();
@@ -144,7 +202,7 @@ pub fn judge(model: &Model) -> Independence {
         }
         configurations.extend(passage.reached);
         let Some(later) = Found::at(&constraints, configurations) else {
-            return not(Rank::NotDecided);
+            return not(Rank::NotDecided).into();
         };
         found = later;
     }
@@ -160,6 +218,8 @@ pub fn judge(model: &Model) -> Independence {
     let mut against = Vec::new();
     let mut by_chance = Vec::new();
     let mut stops = Vec::new();
+    let mut components = Vec::new();
+    let mut steadiness = f64::INFINITY;
     if rank < model.layout().rows {
         if constraints.is_driven() {
             against = contradiction::by_speed(&constraints, &configurations, &directions, &kept);
@@ -181,18 +241,15 @@ pub fn judge(model: &Model) -> Independence {
                 contradictions,
                 is_driven: constraints.is_driven(),
                 ..not(Rank::Decided { rank, at_start })
-            };
+            }
+            .into();
         }
-        let heading = random.motion(model.layout().velocities);
-        let mut sweep: Vec<Rows>;
-        (stops, sweep) = sweep::stops(&constraints, &start, heading, Some(&kept))
-            .into_iter()
-            .map(|(at, rows)| ((at.time, at.coordinates), rows))
-            .unzip();
-        // One way through the start.
-        sweep.reverse();
-        sweep.extend(way);
+        let regular = (&directions[..], rank);
+        components = components::components(model, &constraints, &configurations, regular);
+        let sweep;
+        (stops, sweep) = sweep::both_ways(&constraints, &start, Some(&kept), way, &mut random);
         kept = choice::steady(kept, &sweep, TOLERANCE);
+        steadiness = choice::steadiness(&kept, &sweep, TOLERANCE);
         by_chance = contradiction::by_chance(
             &constraints,
             &start,
@@ -207,7 +264,7 @@ pub fn judge(model: &Model) -> Independence {
     let redundant = redundant(model, &kept, &directions[first_regular]);
     // The reference configuration may hide what the last one shows.
     let regular = [first_regular, last_regular].map(|k| &directions[k]);
-    Independence {
+    let independence = Independence {
         undetermined: undetermined(model, &kept, regular),
         redundant,
         dormant: dormant.map(|row| layout.place_of(row)).collect(),
@@ -219,8 +276,22 @@ pub fn judge(model: &Model) -> Independence {
         is_driven: constraints.is_driven(),
         likes: constraints.values.clone(),
         sweep: stops,
+        components: given_components(model),
         ..not(Rank::Decided { rank, at_start })
+    };
+    Judged {
+        independence,
+        components,
+        steadiness,
     }
+}
+
+/// The components of a model's vector equations that are along directions fixed on bodies.
+fn given_components(model: &Model) -> components::Found {
+    let joints = model.joints.iter().enumerate();
+    joints
+        .flat_map(|(place, joint)| joint.components.iter().map(move |given| (place, *given)))
+        .collect()
 }
 
 /// What configurations tell of the rank.

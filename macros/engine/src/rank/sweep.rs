@@ -1,8 +1,9 @@
 //! Ways of a mechanism: along what its constraints leave free, and as time goes on.
 
-use super::dense::norm;
+use super::dense::{dot, norm};
 use super::limits::TOLERANCE;
 use super::motion::{Configuration, Constraints};
+use super::random::Random;
 use super::span::Span;
 use super::sparse::Rows;
 
@@ -12,18 +13,48 @@ const STOPS: usize = 60;
 /// mechanism.
 const STEP: f64 = 0.3;
 
-/// The rows of `D` at configurations along a motion that the constraints leave free, straight on as
-/// far as they let it: a few turns of what turns fastest. None where nothing can move.
-pub(super) fn sweep(
+/// Times and coordinates along a motion that the constraints leave free, and the rows of `D` on one
+/// way: back along this motion to the start, on along another motion, back, and along a way that
+/// begins there, too.
+pub(super) fn both_ways(
     constraints: &Constraints,
     start: &Configuration,
-    heading: Vec<f64>,
-) -> Vec<Rows> {
-    let stops = stops(constraints, start, heading, None).into_iter();
-    stops.map(|(_, rows)| rows).collect()
+    independent: Option<&[usize]>,
+    way: Vec<Rows>,
+    random: &mut Random,
+) -> (Vec<(f64, Vec<f64>)>, Vec<Rows>) {
+    let mut headings = [0; 2].map(|_| random.motion(constraints.velocities()));
+    if let Some(here) = constraints.directions(start, TOLERANCE) {
+        let few: Option<Rows> =
+            independent.map(|rows| rows.iter().map(|&row| here[row].clone()).collect());
+        let span = Span::of(few.as_ref().unwrap_or(&here), TOLERANCE);
+        headings
+            .iter_mut()
+            .for_each(|heading| span.remove_from(heading));
+    }
+    let [heading, mut other] = headings;
+    // What moves in one way only moves forwards and backwards.
+    if dot(&heading, &other) > 0.0 {
+        other.iter_mut().for_each(|x| *x = -*x);
+    }
+    let (stops, mut all): (Vec<_>, Vec<Rows>) = stops(constraints, start, heading, independent)
+        .into_iter()
+        .map(|(at, rows)| ((at.time, at.coordinates), rows))
+        .unzip();
+    all.reverse();
+    let other = self::stops(constraints, start, other, independent).into_iter();
+    let other: Vec<Rows> = other.skip(1).map(|(_, rows)| rows).collect();
+    all.extend(other.iter().cloned());
+    if !way.is_empty() {
+        all.extend(other.into_iter().rev());
+        all.extend(way);
+    }
+    (stops, all)
 }
 
-/// The same with the configurations, where it is known which rows the others follow from.
+/// Configurations along a motion that the constraints leave free, straight on as far as they let
+/// it, a few turns of what turns fastest, with the rows of `D`; none where nothing can move. It may
+/// be known which rows the others follow from.
 pub(super) fn stops(
     constraints: &Constraints,
     start: &Configuration,

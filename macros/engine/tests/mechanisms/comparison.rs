@@ -123,7 +123,7 @@ impl<'a> Comparison<'a> {
     }
 
     /// A state near another on the constraints that are kept (Newton's method).
-    fn satisfying_position(&self, state: &State) -> Option<State> {
+    pub(crate) fn satisfying_position(&self, state: &State) -> Option<State> {
         const STEPS: usize = 12;
         let mut at = state.clone();
         for _ in 0..STEPS {
