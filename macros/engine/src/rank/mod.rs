@@ -69,6 +69,7 @@ mod dense;
 mod displacement;
 mod geometry;
 mod limits;
+mod lost;
 mod motion;
 pub mod moves;
 mod normal;
@@ -220,6 +221,7 @@ fn judged(model: &Model) -> Judged {
     let mut stops = Vec::new();
     let mut components = Vec::new();
     let mut steadiness = f64::INFINITY;
+    let mut is_lost = false;
     if rank < model.layout().rows {
         if constraints.is_driven() {
             against = contradiction::by_speed(&constraints, &configurations, &directions, &kept);
@@ -246,10 +248,14 @@ fn judged(model: &Model) -> Judged {
         }
         let regular = (&directions[..], rank);
         components = components::components(model, &constraints, &configurations, regular);
-        let sweep;
-        (stops, sweep) = sweep::both_ways(&constraints, &start, Some(&kept), way, &mut random);
+        let ways = sweep::both_ways(&constraints, &start, Some(&kept), &mut random);
+        let sweep = ways.with(way);
         kept = choice::steady(kept, &sweep, TOLERANCE);
         steadiness = choice::steadiness(&kept, &sweep, TOLERANCE);
+        if steadiness <= TOLERANCE {
+            is_lost = lost::is_lost(&constraints, &ways.configurations(), &kept, rank);
+        }
+        stops = ways.into_first();
         by_chance = contradiction::by_chance(
             &constraints,
             &start,
@@ -273,6 +279,7 @@ fn judged(model: &Model) -> Judged {
             .map(|row| layout.place_of(row))
             .collect(),
         is_alone,
+        is_lost,
         is_driven: constraints.is_driven(),
         likes: constraints.values.clone(),
         sweep: stops,
