@@ -17,12 +17,7 @@ const STEPS: usize = 40;
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Whether kept rows depend on each other at a configuration on a way where others do not.
-pub(super) fn is_lost(
-    constraints: &Constraints,
-    way: &[Configuration],
-    kept: &[usize],
-    rank: usize,
-) -> bool {
+pub(super) fn is_lost(constraints: &Constraints, way: &[Configuration], kept: &[usize]) -> bool {
     let volumes: Vec<f64> = way
         .iter()
         .map(|at| volume(constraints, at, kept).unwrap_or(0.0))
@@ -35,7 +30,7 @@ pub(super) fn is_lost(
         let at = least(constraints, [&way[a], &way[b]], kept)?;
         let rows = constraints.directions(&at, TOLERANCE)?;
         let is_small = volume(constraints, &at, kept)? < VANISHES * largest;
-        Some(is_small && independent(&[rows], REGULAR).len() == rank)
+        Some(is_small && independent(&[rows], REGULAR).len() == kept.len())
     });
     found.contains(&Some(true))
 }

@@ -193,7 +193,7 @@ impl Loop {
         ] {
             self.body(name, [at[0], at[1], a]);
         }
-        // The parallelogram (0.1, 0.3), (0.2, 0.6), (0.6, 0.5), (0.5, 0.2) hangs on a bar that goes on.
+        // The parallelogram (0.1, 0.3), (0.2, 0.6), (0.6, 0.5), (0.5, 0.2) hangs on its first bar.
         self.hinge("hang", ["base", "p"], [0.0, 0.0], "Revolute");
         self.hinge("a", ["p", "q"], [0.2, 0.6], "Revolute");
         self.hinge("b", ["q", "s"], [0.6, 0.5], "Revolute");
