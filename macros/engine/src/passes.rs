@@ -30,6 +30,10 @@ pub fn mechanism(
     if faults.any() {
         return Some(checked.model);
     }
-    let found = rank::judge(&checked.model);
+    let found = if checked.drops() {
+        rank::judge_to_drop(&checked.model)
+    } else {
+        rank::judge(&checked.model)
+    };
     Some(checked.judged(found, faults))
 }

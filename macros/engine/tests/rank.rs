@@ -194,6 +194,84 @@ fn planar_loops_of_spatial_hinges() {
     }
 }
 
+/// A four-bar in the plane y = 0 on a base that turns about z.
+fn slewing(attribute: &str, axis: [f64; 3]) -> Model {
+    hinged(
+        attribute,
+        &[
+            ("base", [0.1, 0.0, 0.0]),
+            ("crank", [0.0, 0.0, 0.15]),
+            ("rod", [0.25, 0.0, 0.35]),
+            ("rocker", [0.5, 0.0, 0.2]),
+        ],
+        &[
+            ("slew", ["ground", "base"], [0.0, 0.0, 0.0], axis),
+            ("a", ["base", "crank"], [0.0, 0.0, 0.0], Y),
+            ("b", ["crank", "rod"], [0.0, 0.0, 0.3], Y),
+            ("c", ["rod", "rocker"], [0.5, 0.0, 0.4], Y),
+            ("d", ["rocker", "base"], [0.5, 0.0, 0.0], Y),
+        ],
+    )
+}
+
+#[test]
+fn what_is_left_out_of_a_loop_that_turns_is_along_its_normal() {
+    let model = slewing("redundant = \"drop\"", Z);
+    assert_eq!(model.independence.rank, decided(22, 22));
+    let [(0, components)] = model.joints[4].components[..] else {
+        panic!("{:?}", model.joints[4].components)
+    };
+    let dropped = &model.joints[4].dropped;
+    let points: Vec<&usize> = dropped.iter().filter(|row| **row < 3).collect();
+    let [&normal] = points[..] else {
+        panic!("{dropped:?}")
+    };
+    // In axes of the base, whose orientation is a general one.
+    let base = &model.bodies[0];
+    let orientation = base.orientation.map(|e| model.seen(e).expect("written"));
+    let axes = holonom_engine::model::inertia::rotation(orientation);
+    assert_eq!(model.joints[4].bodies[components.place], Some(0));
+    assert!(!model.independence.is_lost);
+    for (k, along) in components.axes.iter().enumerate() {
+        let y: f64 = (0..3).map(|l| axes[1][l] * along[l]).sum();
+        let wanted = if k == normal { 1.0 } else { 0.0 };
+        assert!((y.abs() - wanted).abs() < 1e-12, "{k}: {y}");
+    }
+    // Where the plane only turns about its normal, components are along global axes.
+    let model = slewing("redundant = \"drop\"", Y);
+    assert!(model.joints.iter().all(|joint| joint.components.is_empty()));
+    // What is kept is as it is written, and what is refused is named by it.
+    let model = slewing("redundant = \"keep\"", Z);
+    assert!(model.joints.iter().all(|joint| joint.components.is_empty()));
+    // Of components along global axes no choice is sound.
+    assert!(model.independence.is_lost);
+}
+
+#[test]
+fn what_is_left_out_between_bodies_with_many_points_in_common_turns_with_them() {
+    let points = [[0.0; 3], X, Y, Z];
+    let balls = points.iter().enumerate().map(|(k, point)| {
+        format!("#[joint(between = [first, second], point = {point:?})] ball_{k}: Spherical,")
+    });
+    let bodies = ["first", "second"].map(|name| {
+        format!(
+            "#[body(free, mass = 1.0, inertia = [0.1, 0.2, 0.15], position = [0.2, 0.3, 0.1])] {name}: Body,"
+        )
+    });
+    let text = bodies.into_iter().chain(balls).collect::<String>();
+    let model = model(&tokens(&format!(
+        "#[mechanism(redundant = \"drop\")] struct Stack {{ {text} }}"
+    )));
+    assert_eq!(model.independence.rank, decided(6, 6));
+    for joint in &model.joints {
+        let lost = joint.dropped.len();
+        assert!(
+            lost == 0 || lost == 3 || joint.components.len() == 1,
+            "{lost}"
+        );
+    }
+}
+
 #[test]
 fn a_singular_start_is_no_redundancy() {
     let right = 0.5 * std::f64::consts::PI;

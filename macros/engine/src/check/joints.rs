@@ -209,6 +209,7 @@ impl JointChecker<'_> {
             bodies,
             bindings,
             dropped: Vec::new(),
+            components: Vec::new(),
             is_cut,
             read: Vec::new(),
             limits,

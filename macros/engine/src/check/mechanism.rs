@@ -34,6 +34,12 @@ pub struct Checked<'a> {
 }
 
 impl Checked<'_> {
+    /// Whether redundant equations are to be left out.
+    #[must_use]
+    pub fn drops(&self) -> bool {
+        self.wish.0 == Redundant::Drop
+    }
+
     /// The model, whose redundant equations are refused, left out or kept, as was wished: what they
     /// are was found by numbers.
     pub fn judged(mut self, found: Independence, faults: &mut Faults) -> Model {

@@ -100,12 +100,35 @@ pub struct Element {
     pub bindings: Vec<Binding>,
     /// Equations of its definition that are left out, in order.
     pub dropped: Vec<usize>,
+    /// The components of vector equations that lose some, each by the first of its three equations
+    /// in the definition. Those of others are along global axes.
+    pub components: Vec<(usize, Components)>,
     /// Whether it carries no body in joint coordinates, because the user says so.
     pub is_cut: bool,
     /// What rates of states read of it.
     pub read: Vec<Term>,
     /// Its limits, where it has some.
     pub limits: Option<Limits>,
+}
+
+/// Three directions at right angles, fixed on a body, along which a vector equation is split.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Components {
+    /// The place of the body among those of the joint.
+    pub place: usize,
+    /// The directions in principal axes of the body.
+    pub axes: [[f64; 3]; 3],
+}
+
+impl Element {
+    /// The components of the vector equation that begins at an equation of the definition; `None`
+    /// for those along global axes.
+    #[must_use]
+    pub fn components_of(&self, first: usize) -> Option<&Components> {
+        let mut known = self.components.iter();
+        let found = known.find(|(equation, _)| *equation == first);
+        found.map(|(_, components)| components)
+    }
 }
 
 /// The limits of a joint that leaves one coordinate free: on its angle, else its displacement.

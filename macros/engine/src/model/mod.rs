@@ -25,7 +25,8 @@ pub use joint::{
 };
 pub use law::{LawTerm, Switch, Switching};
 pub use mechanism::{
-    Binding, Body, BodyKind, Coordinates, Element, Limits, Model, NamedPoint, Part, UserState,
+    Binding, Body, BodyKind, Components, Coordinates, Element, Limits, Model, NamedPoint, Part,
+    UserState,
 };
 pub use motion::{Direction, Motion};
 pub use name::Name;

@@ -1,5 +1,7 @@
 //! What is known about the rank of the constraints.
 
+use super::mechanism::Components;
+
 /// What a mechanism asks for where equations depend on each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Redundant {
@@ -88,6 +90,9 @@ pub struct Independence {
     /// Whether no other configuration was found near the reference one, although the rank leaves
     /// motion free: there rows may depend on each other by chance.
     pub is_alone: bool,
+    /// Whether the equations that are not redundant depend on each other somewhere on the way of the
+    /// mechanism, where all equations together say more: no choice is sound everywhere.
+    pub is_lost: bool,
     /// Whether the time stands in an equation.
     pub is_driven: bool,
     /// The places, in order, of the run-time values that the constraints depend on, where all this
@@ -98,6 +103,9 @@ pub struct Independence {
     /// Times (s) and coordinates of the bodies along a motion that all equations leave free, from
     /// the reference configuration on, where there was a choice of equations to be made.
     pub sweep: Vec<(f64, Vec<f64>)>,
+    /// The components of vector equations, by joint and first equation, to which the places of
+    /// redundant equations refer where they are not along global axes.
+    pub components: Vec<(usize, (usize, Components))>,
 }
 
 impl Independence {

@@ -28,6 +28,22 @@ pub(super) fn steady(kept: Vec<usize>, sweep: &[Rows], tolerance: f64) -> Vec<us
     exchanged.unwrap_or_else(|| steady_by_bases(kept, left_out, sweep, tolerance))
 }
 
+/// The least determinant of some rows along a sweep over the largest, negative where it changes its
+/// sign: how far they are from a place where they depend on each other, while others do not.
+pub(super) fn steadiness(kept: &[usize], sweep: &[Rows], tolerance: f64) -> f64 {
+    let count = sweep.first().map_or(0, Vec::len);
+    let left_out: Vec<usize> = (0..count).filter(|row| !kept.contains(row)).collect();
+    if left_out.is_empty() {
+        return f64::INFINITY;
+    }
+    let exchanges = Exchanges::along(sweep, kept, &left_out, tolerance);
+    let found = match exchanges {
+        Some(exchanges) => Determinants::of(exchanges.stops.iter().map(|stop| stop.determinant)),
+        None => determinants(&combinations(sweep, kept.len(), tolerance), &left_out),
+    };
+    found.map_or(f64::INFINITY, |found| found.least / found.largest)
+}
+
 /// Whether a determinant with the given values is better than one whose least value is given.
 fn is_better(least: f64, than: f64, tolerance: f64) -> bool {
     least > than * (1.0 + tolerance) + tolerance

@@ -47,14 +47,10 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
     }
     let rows: Vec<usize> = (0..layout.rows).filter(|&row| is_closing[row]).collect();
     if rank < rows.len() {
-        let heading = random.motion(layout.velocities);
-        let mut sweep = sweep::sweep(&constraints, &start, heading);
-        // One way through the start.
-        sweep.reverse();
-        sweep.extend(
-            way.iter()
-                .filter_map(|at| constraints.directions(at, TOLERANCE)),
-        );
+        let way = way
+            .iter()
+            .filter_map(|at| constraints.directions(at, TOLERANCE));
+        let sweep = sweep::both_ways(&constraints, &start, None, &mut random).with(way.collect());
         let sweep: Vec<Rows> = sweep.iter().map(stands_out).collect();
         kept = choice::steady(kept, &sweep, TOLERANCE);
     }

@@ -25,7 +25,8 @@
 //!
 //! - A row that depends on others at all configurations is redundant: refused, dropped or kept
 //!   (`check/redundant.rs`). Which rows stay: `docs/decisions/004-choice-of-rows.md`.
-//! - A vector equation that loses a component becomes scalar products with global unit vectors.
+//! - A vector equation that loses a component becomes scalar products with unit vectors: global
+//!   ones, or such that are fixed on a body where a loop turns in space (`components.rs`).
 //! - A dropped row must hold wherever the kept rows let the mechanism move
 //!   (`contradiction::by_chance`). Constraints that touch, such as a bar that a turn shortens by
 //!   second order only, leave no other configuration and depend on each other at the start.
@@ -62,11 +63,13 @@
 mod assemble;
 mod choice;
 pub(crate) mod closing;
+mod components;
 mod contradiction;
 mod dense;
 mod displacement;
 mod geometry;
 mod limits;
+mod lost;
 mod motion;
 pub mod moves;
 mod normal;
@@ -93,6 +96,61 @@ use crate::model::{Contradiction, Independence, Model, Rank, RedundantRow};
 /// Finds the rank of a model's constraints, and which of them follow from others.
 #[must_use]
 pub fn judge(model: &Model) -> Independence {
+    judged(model).independence
+}
+
+/// The same of a model whose redundant equations are to be left out: vector equations are split
+/// along directions by which the others stay independent ([`components`]).
+#[must_use]
+pub fn judge_to_drop(model: &Model) -> Independence {
+    let mut best = judged(model);
+    let turned = std::mem::take(&mut best.components);
+    if !turned.is_empty() {
+        best = judged(&with(model, turned));
+    }
+    // Where no direction is kept, as between two bodies with many points in common, or in a loop
+    // in space.
+    for first in [true, false] {
+        if best.steadiness > TOLERANCE || best.independence.redundant.is_empty() {
+            break;
+        }
+        let other = judged(&with(model, components::of_bodies(model, first)));
+        if other.steadiness > best.steadiness {
+            best = other;
+        }
+    }
+    best.independence
+}
+
+/// A model whose vector equations are split along some directions.
+fn with(model: &Model, components: components::Found) -> Model {
+    let mut model = model.clone();
+    for (joint, components) in components {
+        model.joints[joint].components.push(components);
+    }
+    model
+}
+
+/// What is found of a model.
+struct Judged {
+    independence: Independence,
+    /// The components of vector equations that have to be along directions fixed on bodies.
+    components: components::Found,
+    /// How steady the choice of rows is ([`choice::steadiness`]); infinite without one.
+    steadiness: f64,
+}
+
+impl From<Independence> for Judged {
+    fn from(independence: Independence) -> Self {
+        Self {
+            independence,
+            components: Vec::new(),
+            steadiness: f64::INFINITY,
+        }
+    }
+}
+
+fn judged(model: &Model) -> Judged {
     let mut random = Random::new();
     let not = |rank: Rank| Independence {
         rank,
@@ -101,7 +159,7 @@ pub fn judge(model: &Model) -> Independence {
     let Some((constraints, described)) =
         Constraints::new(model, |velocities| random.motion(velocities))
     else {
-        return not(Rank::NotDecided);
+        return not(Rank::NotDecided).into();
     };
     let Some(start) = constraints.assembled(&described) else {
         let found = contradiction::nowhere(&constraints, &described, &described, &mut random);
@@ -117,11 +175,12 @@ pub fn judge(model: &Model) -> Independence {
             contradictions: found.unwrap_or_default(),
             is_driven: constraints.is_driven(),
             ..not(Rank::NotAssembled)
-        };
+        }
+        .into();
     };
     let configurations = walk(&constraints, start.clone(), None, &mut random);
     let Some(mut found) = Found::at(&constraints, configurations) else {
-        return not(Rank::NotDecided);
+        return not(Rank::NotDecided).into();
     };
     let has_choice = found.rank < model.layout().rows;
     let mut missed = Vec::new();
@@ -144,7 +203,7 @@ pub fn judge(model: &Model) -> Independence {
         }
         configurations.extend(passage.reached);
         let Some(later) = Found::at(&constraints, configurations) else {
-            return not(Rank::NotDecided);
+            return not(Rank::NotDecided).into();
         };
         found = later;
     }
@@ -155,11 +214,11 @@ pub fn judge(model: &Model) -> Independence {
         at_start,
         first_regular,
         last_regular,
-        mut kept,
+        kept,
     } = found;
     let mut against = Vec::new();
-    let mut by_chance = Vec::new();
-    let mut stops = Vec::new();
+    let mut components = Vec::new();
+    let choice;
     if rank < model.layout().rows {
         if constraints.is_driven() {
             against = contradiction::by_speed(&constraints, &configurations, &directions, &kept);
@@ -181,46 +240,101 @@ pub fn judge(model: &Model) -> Independence {
                 contradictions,
                 is_driven: constraints.is_driven(),
                 ..not(Rank::Decided { rank, at_start })
-            };
+            }
+            .into();
         }
-        let heading = random.motion(model.layout().velocities);
-        let mut sweep: Vec<Rows>;
-        (stops, sweep) = sweep::stops(&constraints, &start, heading, Some(&kept))
-            .into_iter()
-            .map(|(at, rows)| ((at.time, at.coordinates), rows))
-            .unzip();
-        // One way through the start.
-        sweep.reverse();
-        sweep.extend(way);
-        kept = choice::steady(kept, &sweep, TOLERANCE);
-        by_chance = contradiction::by_chance(
-            &constraints,
-            &start,
-            &kept,
-            &configurations[first_regular],
-            &mut random,
-        );
+        let regular = (&directions[..], rank);
+        components = components::components(model, &constraints, &configurations, regular);
+        let from = &configurations[first_regular];
+        choice = Choice::of(&constraints, [&start, from], kept, way, &mut random);
+    } else {
+        choice = Choice::none(kept);
     }
+    let kept = choice.kept;
     let layout = model.layout();
     let is_alone = configurations.len() == 1 && rank < layout.rows.min(layout.velocities);
     let dormant = dormant(&constraints, &directions).into_iter();
     let redundant = redundant(model, &kept, &directions[first_regular]);
     // The reference configuration may hide what the last one shows.
     let regular = [first_regular, last_regular].map(|k| &directions[k]);
-    Independence {
+    let independence = Independence {
         undetermined: undetermined(model, &kept, regular),
         redundant,
         dormant: dormant.map(|row| layout.place_of(row)).collect(),
-        by_chance: by_chance
+        by_chance: choice
+            .by_chance
             .into_iter()
             .map(|row| layout.place_of(row))
             .collect(),
         is_alone,
+        is_lost: choice.is_lost,
         is_driven: constraints.is_driven(),
         likes: constraints.values.clone(),
-        sweep: stops,
+        sweep: choice.stops,
+        components: given_components(model),
         ..not(Rank::Decided { rank, at_start })
+    };
+    Judged {
+        independence,
+        components,
+        steadiness: choice.steadiness,
     }
+}
+
+/// Rows that are kept, and how they do on the way of the mechanism.
+struct Choice {
+    kept: Vec<usize>,
+    steadiness: f64,
+    /// See [`Independence::is_lost`].
+    is_lost: bool,
+    /// See [`Independence::sweep`].
+    stops: Vec<(f64, Vec<f64>)>,
+    by_chance: Vec<usize>,
+}
+
+impl Choice {
+    /// All rows.
+    fn none(kept: Vec<usize>) -> Self {
+        Self {
+            kept,
+            steadiness: f64::INFINITY,
+            is_lost: false,
+            stops: Vec::new(),
+            by_chance: Vec::new(),
+        }
+    }
+
+    /// The steadiest rows, from some that are independent at a configuration, with the rows of `D`
+    /// where time led to.
+    fn of(
+        constraints: &Constraints,
+        [start, from]: [&Configuration; 2],
+        kept: Vec<usize>,
+        way: Vec<Rows>,
+        random: &mut Random,
+    ) -> Self {
+        let ways = sweep::both_ways(constraints, start, Some(&kept), random);
+        let sweep = ways.with(way);
+        let kept = choice::steady(kept, &sweep, TOLERANCE);
+        let steadiness = choice::steadiness(&kept, &sweep, TOLERANCE);
+        let is_lost =
+            steadiness <= TOLERANCE && lost::is_lost(constraints, &ways.configurations(), &kept);
+        Self {
+            by_chance: contradiction::by_chance(constraints, start, &kept, from, random),
+            kept,
+            steadiness,
+            is_lost,
+            stops: ways.into_first(),
+        }
+    }
+}
+
+/// The components of a model's vector equations that are along directions fixed on bodies.
+fn given_components(model: &Model) -> components::Found {
+    let joints = model.joints.iter().enumerate();
+    joints
+        .flat_map(|(place, joint)| joint.components.iter().map(move |given| (place, *given)))
+        .collect()
 }
 
 /// What configurations tell of the rank.

@@ -3,6 +3,7 @@
 //! Motions are measured without dimension: translations by the size of the mechanism, rotations in
 //! radians.
 
+use super::dense::dot;
 use super::displacement::{Twist, apply};
 use super::geometry::{along_screw, length, turned};
 use super::limits::TOLERANCE;
@@ -47,6 +48,32 @@ impl Configuration {
     }
 }
 
+/// Three rows that are components along directions fixed on a body. Where all three hold, their
+/// gradients are those of the components along global axes, turned: the gradients of the directions
+/// are multiplied with what vanishes.
+struct Along {
+    /// The first row.
+    row: usize,
+    body: usize,
+    /// In axes of the body.
+    axes: [[f64; 3]; 3],
+}
+
+/// Those of a model, where no component is left out.
+fn components(model: &Model, layout: &Layout) -> Vec<Along> {
+    let mut all = Vec::new();
+    for (joint, &row) in model.joints.iter().zip(&layout.row) {
+        for (first, components) in joint.components.iter().filter(|_| joint.dropped.is_empty()) {
+            all.extend(joint.bodies[components.place].map(|body| Along {
+                row: row + first,
+                body,
+                axes: components.axes,
+            }));
+        }
+    }
+    all
+}
+
 /// The constraints of a mechanism, ready to be evaluated.
 pub(super) struct Constraints {
     kinds: Vec<BodyKind>,
@@ -71,6 +98,8 @@ pub(super) struct Constraints {
     pub(super) sizes: Vec<Option<f64>>,
     /// What the size of a row is at least: that of an angle, a length or a squared length.
     least: f64,
+    /// The vector equations whose components are along directions fixed on a body.
+    components: Vec<Along>,
     /// What symbols are at the typical values of parameters.
     likes: Vec<Option<f64>>,
     /// The places of the run-time values that the constraints depend on, in order.
@@ -118,6 +147,7 @@ impl Constraints {
             counted: counts
                 .then(|| [counter_rates(&scene), counters(&scene)].map(|kernel| tape(&kernel))),
             jacobian: tape(&jacobian),
+            components: components(model, &layout),
             likes: model.symbols.iter().map(|symbol| symbol.like).collect(),
             values: Vec::new(),
             breaks,
@@ -236,7 +266,41 @@ impl Constraints {
                 }
             }
         }
+        for (first, turn) in self.turns(at) {
+            let own: [Row; 3] = [0, 1, 2].map(|k| std::mem::take(&mut rows[first + k]));
+            let width = own.iter().map(Row::width).max().unwrap_or_default();
+            for (k, direction) in turn.iter().enumerate() {
+                let mut sum = vec![0.0; width];
+                for (row, share) in own.iter().zip(direction) {
+                    row.add_to(*share, &mut sum);
+                }
+                rows[first + k] = Row::of(&sum);
+            }
+        }
         Some(rows)
+    }
+
+    /// The first row of each vector equation that is split along directions fixed on a body, and
+    /// these in global axes.
+    fn turns(&self, at: &Configuration) -> Vec<(usize, [[f64; 3]; 3])> {
+        let turns = self.components.iter().map(|along| {
+            let (_, orientation) = self.pose(at, along.body);
+            let axes = along.axes.map(|direction| apply(orientation, direction));
+            (along.row, axes)
+        });
+        turns.collect()
+    }
+
+    /// Values of all rows, of which those of vector equations are along global axes, along the
+    /// directions of their components.
+    fn split(&self, mut values: Vec<f64>, at: &Configuration) -> Vec<f64> {
+        for (first, turn) in self.turns(at) {
+            let own = [0, 1, 2].map(|k| values[first + k]);
+            for (k, direction) in turn.iter().enumerate() {
+                values[first + k] = dot(direction, &own);
+            }
+        }
+        values
     }
 
     /// The rows of `D` over motions without dimension, of unit length; those beneath the tolerance
@@ -258,7 +322,7 @@ impl Constraints {
         let Some(driven) = &self.driven else {
             return Some(vec![0.0; self.layout.rows]);
         };
-        let mut rates = self.evaluate(driven, at)?;
+        let mut rates = self.split(self.evaluate(driven, at)?, at);
         let rows = self.gradients(at)?;
         for ((rate, row), size) in rates.iter_mut().zip(rows).zip(&self.sizes) {
             let length = row.norm();
@@ -299,7 +363,7 @@ impl Constraints {
     /// The violations, over the sizes of the gradients: about the distances to where the
     /// constraints hold.
     pub(super) fn violations(&self, at: &Configuration) -> Option<Vec<f64>> {
-        let mut values = self.evaluate(&self.phi, at)?;
+        let mut values = self.split(self.evaluate(&self.phi, at)?, at);
         for (value, size) in values.iter_mut().zip(&self.sizes) {
             if *value != 0.0 {
                 *value /= size.unwrap_or(self.least);
@@ -351,6 +415,11 @@ impl Constraints {
             }
         }
         moved
+    }
+
+    /// The number of bodies.
+    pub(super) fn bodies(&self) -> usize {
+        self.kinds.len()
     }
 
     /// Whether a body has an orientation.

@@ -37,6 +37,11 @@ impl Row {
         &self.entries
     }
 
+    /// The length that holds all places.
+    pub(super) fn width(&self) -> usize {
+        self.entries.last().map_or(0, |(place, _)| place + 1)
+    }
+
     /// The value at a place.
     pub(super) fn at(&self, place: usize) -> f64 {
         let found = self.entries.binary_search_by_key(&place, |entry| entry.0);
@@ -89,8 +94,7 @@ impl Row {
 
 /// The length that holds all places of some rows.
 pub(super) fn width(rows: &[Row]) -> usize {
-    let last = rows.iter().filter_map(|row| row.entries.last());
-    last.map(|(place, _)| place + 1).max().unwrap_or(0)
+    rows.iter().map(Row::width).max().unwrap_or(0)
 }
 
 /// `A^T y`, of the given length.

@@ -1,8 +1,9 @@
 //! Ways of a mechanism: along what its constraints leave free, and as time goes on.
 
-use super::dense::norm;
+use super::dense::{dot, norm};
 use super::limits::TOLERANCE;
 use super::motion::{Configuration, Constraints};
+use super::random::Random;
 use super::span::Span;
 use super::sparse::Rows;
 
@@ -12,18 +13,70 @@ const STOPS: usize = 60;
 /// mechanism.
 const STEP: f64 = 0.3;
 
-/// The rows of `D` at configurations along a motion that the constraints leave free, straight on as
-/// far as they let it: a few turns of what turns fastest. None where nothing can move.
-pub(super) fn sweep(
-    constraints: &Constraints,
-    start: &Configuration,
-    heading: Vec<f64>,
-) -> Vec<Rows> {
-    let stops = stops(constraints, start, heading, None).into_iter();
-    stops.map(|(_, rows)| rows).collect()
+/// Motions that the constraints leave free, both from the start on, with the rows of `D`.
+pub(super) struct Ways {
+    first: Vec<(Configuration, Rows)>,
+    other: Vec<(Configuration, Rows)>,
 }
 
-/// The same with the configurations, where it is known which rows the others follow from.
+impl Ways {
+    /// All rows on one way: back along the first motion to the start, on along the other one, back,
+    /// and along a way that begins there, too.
+    pub(super) fn with(&self, way: Vec<Rows>) -> Vec<Rows> {
+        let rows = |(_, rows): &(Configuration, Rows)| rows.clone();
+        let mut all: Vec<Rows> = self.first.iter().rev().map(rows).collect();
+        all.extend(self.other.iter().skip(1).map(rows));
+        if !way.is_empty() {
+            all.extend(self.other.iter().rev().map(rows));
+            all.extend(way);
+        }
+        all
+    }
+
+    /// The configurations on that way, as far as nothing drives them.
+    pub(super) fn configurations(&self) -> Vec<Configuration> {
+        let first = self.first.iter().rev();
+        let all = first.chain(self.other.iter().skip(1));
+        all.map(|(at, _)| at.clone()).collect()
+    }
+
+    /// Times and coordinates on the first motion.
+    pub(super) fn into_first(self) -> Vec<(f64, Vec<f64>)> {
+        let first = self.first.into_iter();
+        first.map(|(at, _)| (at.time, at.coordinates)).collect()
+    }
+}
+
+/// Two motions straight on, as far as the constraints let them; they may be one that leads forwards
+/// and backwards.
+pub(super) fn both_ways(
+    constraints: &Constraints,
+    start: &Configuration,
+    independent: Option<&[usize]>,
+    random: &mut Random,
+) -> Ways {
+    let mut headings = [0; 2].map(|_| random.motion(constraints.velocities()));
+    if let Some(here) = constraints.directions(start, TOLERANCE) {
+        let few: Option<Rows> =
+            independent.map(|rows| rows.iter().map(|&row| here[row].clone()).collect());
+        let span = Span::of(few.as_ref().unwrap_or(&here), TOLERANCE);
+        headings
+            .iter_mut()
+            .for_each(|heading| span.remove_from(heading));
+    }
+    let [heading, mut other] = headings;
+    if dot(&heading, &other) > 0.0 {
+        other.iter_mut().for_each(|x| *x = -*x);
+    }
+    Ways {
+        first: stops(constraints, start, heading, independent),
+        other: stops(constraints, start, other, independent),
+    }
+}
+
+/// Configurations along a motion that the constraints leave free, straight on as far as they let
+/// it, a few turns of what turns fastest, with the rows of `D`; none where nothing can move. It may
+/// be known which rows the others follow from.
 pub(super) fn stops(
     constraints: &Constraints,
     start: &Configuration,

@@ -168,6 +168,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         bodies: vec![Some(0), Some(1)],
         bindings,
         dropped: Vec::new(),
+        components: Vec::new(),
         is_cut: false,
         read: Vec::new(),
         limits: None,

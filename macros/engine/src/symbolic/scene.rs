@@ -240,7 +240,7 @@ impl Scene {
                     Row::Scalar(term) => Constraint::Scalar(binder.scalar(arena, term)),
                     Row::Vector(term) => Constraint::Vector(binder.vector(arena, term)),
                 };
-                for constraint in kept(constraint, place_in_definition, &element.dropped) {
+                for constraint in kept(arena, constraint, place_in_definition, element) {
                     let constrained = Constrained {
                         joint: place,
                         row,

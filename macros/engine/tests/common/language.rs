@@ -390,6 +390,19 @@ impl<'a> Interpreter<'a> {
         normals.map(|normal| self.pose(body, when).outwards(normal.map(constant)))
     }
 
+    /// The components of vector equations that are split along directions fixed on a body, by the
+    /// first equation.
+    pub(crate) fn components(&self, rows: &[Dual2_64]) -> Vec<(usize, Vector)> {
+        let split = self.element.components.iter();
+        let components = split.map(|(first, body, axes)| {
+            let pose = self.pose(*body, When::Now);
+            let own = [0, 1, 2].map(|k| rows[first + k]);
+            let along = axes.map(|axis| dot(pose.outwards(axis.map(constant)), own));
+            (*first, along)
+        });
+        components.collect()
+    }
+
     /// An axis of a body, now.
     pub(crate) fn axis_now(&self, body: usize, name: &str) -> Vector {
         self.fixed(body, name, When::Now)

@@ -139,6 +139,9 @@ pub(crate) struct Element {
     pub(crate) statements: Vec<Statement>,
     /// The angles whose turns the state counts, in its order: from, to, axis.
     pub(crate) turns: Vec<(usize, usize, String)>,
+    /// Vector equations that are split along directions fixed on a body where they lose a
+    /// component: the first equation, the body's place, the directions in the user's axes.
+    pub(crate) components: Vec<(usize, usize, [Numbers; 3])>,
 }
 
 /// A mechanism as it is described.
@@ -516,6 +519,7 @@ impl Described {
             laws: Vec::new(),
             statements: definition.statements,
             turns: Vec::new(),
+            components: Vec::new(),
         };
         for parameter in definition.parameters {
             let expr = field.find(&parameter.name);

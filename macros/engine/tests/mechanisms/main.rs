@@ -10,6 +10,7 @@
 //! `HOLONOM_MECHANISMS=100000 cargo test --release -p holonom-engine --test mechanisms` compares
 //! more of them, `HOLONOM_SEED=..` begins elsewhere.
 
+mod carriers;
 #[path = "../common/mod.rs"]
 mod common;
 mod comparison;

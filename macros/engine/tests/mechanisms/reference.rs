@@ -34,6 +34,8 @@ pub(crate) struct Equations {
     pub(crate) gradients: Vec<Vec<f64>>,
     /// The joint of each row.
     pub(crate) joints: Vec<usize>,
+    /// Three rows, from the first on, as they are where one of them is left out.
+    components: Vec<(usize, [Component; 3])>,
     /// The mass matrix.
     pub(crate) mass: Vec<Vec<f64>>,
     /// Gravity, gyroscopic moments, forces.
@@ -47,6 +49,15 @@ pub(crate) struct Equations {
     pub(crate) angles: Vec<(f64, f64)>,
     /// The largest number on the way.
     pub(crate) scale: f64,
+}
+
+/// A row along a direction fixed on a body.
+#[derive(Clone, Default)]
+struct Component {
+    phi: f64,
+    rate: f64,
+    gamma: f64,
+    gradient: Vec<f64>,
 }
 
 /// `1/2 L(p)^T w`: the rates of Euler parameters, `w` in body axes.
@@ -159,6 +170,7 @@ impl Equations {
             gamma: Vec::new(),
             gradients: Vec::new(),
             joints: Vec::new(),
+            components: Vec::new(),
             mass: vec![vec![0.0; velocities]; velocities],
             forces: vec![0.0; velocities],
             kinetic: 0.0,
@@ -222,6 +234,16 @@ impl Equations {
         let sides = motion.read(element, &moving, 1.0, |i| i.sides())?;
         self.sides.extend(sides);
         let first = self.phi.len();
+        let components = motion.read(element, &moving, 1.0, |i| i.components(&along))?;
+        for (row, along) in components {
+            let split = along.map(|component| Component {
+                phi: component.re,
+                rate: component.v1,
+                gamma: -component.v2,
+                gradient: vec![0.0; self.forces.len()],
+            });
+            self.components.push((first + row, split));
+        }
         for row in along {
             self.phi.push(row.re);
             self.rate.push(row.v1);
@@ -231,6 +253,15 @@ impl Equations {
         }
         for (body, column, poses) in motion.columns(element.0) {
             let values = motion.read(element, &poses, 0.0, |i| i.rows())?;
+            let components = motion.read(element, &poses, 0.0, |i| i.components(&values))?;
+            for (row, along) in components {
+                let mut own = self.components.iter_mut();
+                let own = own.find(|(known, _)| *known == first + row);
+                let (_, split) = own.expect("it was there at first");
+                for (component, value) in split.iter_mut().zip(along) {
+                    component.gradient[motion.first[body] + column] = value.v1;
+                }
+            }
             for (row, value) in self.gradients[first..].iter_mut().zip(values) {
                 row[motion.first[body] + column] = value.v1;
             }
@@ -307,6 +338,17 @@ impl Equations {
 
     /// The equations without some of the rows.
     pub(crate) fn without(mut self, dropped: &[bool]) -> Self {
+        for (first, split) in std::mem::take(&mut self.components) {
+            if !dropped[first..first + 3].contains(&true) {
+                continue;
+            }
+            for (row, component) in (first..).zip(split) {
+                self.phi[row] = component.phi;
+                self.rate[row] = component.rate;
+                self.gamma[row] = component.gamma;
+                self.gradients[row] = component.gradient;
+            }
+        }
         let keep = |k: usize| !dropped[k];
         let select = |values: Vec<f64>| -> Vec<f64> {
             let kept = values.into_iter().enumerate().filter(|(k, _)| keep(*k));

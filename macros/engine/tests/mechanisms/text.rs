@@ -10,7 +10,7 @@ use holonom_engine::plan::system::Terms;
 
 use crate::common::{checked, tokens};
 use crate::comparison::{Comparison, Extent, difference};
-use crate::inputs::{Coefficients, Inputs};
+use crate::inputs::{Coefficients, Inputs, transposed, turned, user_axes};
 use crate::language::Pose;
 use crate::library;
 use crate::reading::Described;
@@ -111,7 +111,7 @@ impl Text {
     }
 
     /// What it means, read by the engine and by the second reader, or why the engine refuses it.
-    fn read(&self) -> Result<(Model, Described), String> {
+    pub(crate) fn read(&self) -> Result<(Model, Described), String> {
         let item = tokens(&self.item);
         let model = checked(&item, |name| {
             self.find(name).map(|(kind, text)| (kind, tokens(&text)))
@@ -129,6 +129,16 @@ impl Text {
                 (turn.from, turn.to, axis)
             });
             element.turns = turns.collect();
+            let components = used.components.iter().map(|(first, along)| {
+                let body = used.bodies[along.place].expect("a body");
+                let own = transposed(user_axes(&model, body));
+                (
+                    *first,
+                    along.place,
+                    along.axes.map(|axis| turned(own, axis)),
+                )
+            });
+            element.components = components.collect();
             let poses: Vec<Pose> = element.between.iter().map(|&body| start(body)).collect();
             for carried in &mut element.vectors {
                 let mut parameters = definition.parameters.iter();
