@@ -479,7 +479,10 @@ where
         });
         let companion = if self.is_verified {
             let integrator = self.integrator.companion(end - start);
-            integrator.map(|integrator| Companion::new(dynamics.clone(), integrator, &state))
+            let formulation = self.formulation.companion();
+            let dynamics = Dynamics::of_parameters(given, formulation)?;
+            let dynamics = dynamics.with_forces(&self.forces).coordinates::<C>();
+            integrator.map(|integrator| Companion::new(dynamics, integrator, &state))
         } else {
             None
         };
