@@ -17,10 +17,11 @@
 //! | compliance | `compliance.rs` | every sixteenth step of a penalty |
 //! | unconverged | `unconverged.rs` | every step |
 //! | tolerance and size | `control.rs` | every step |
+//! | the user's states | `states.rs` | every step, where there are some |
 //!
-//! Three values judge nothing, and tell the others what counts: how far the mechanism has moved
-//! (`travel.rs`), how long the motion remembers its errors (`memory.rs`), and whether it is at rest
-//! (`rest.rs`).
+//! Four values judge nothing, and tell the others what counts: how far the mechanism has moved
+//! (`travel.rs`), how far it went round (`turning.rs`), how long the motion remembers its errors
+//! (`memory.rs`), and whether it is at rest (`rest.rs`).
 //!
 //! It looks at the coordinates that run: in relative ones at the joints that close loops, by the
 //! pivots that the steps leave. `passage.rs` follows pivots and gradients along assemblies and
@@ -52,7 +53,9 @@ mod rest;
 mod round_off;
 mod seen;
 mod singular;
+mod states;
 mod travel;
+mod turning;
 mod unconverged;
 mod verdict;
 mod violations;
@@ -84,7 +87,9 @@ use self::phase_error::PhaseError;
 use self::pivots::Pivots;
 use self::rest::{Rest, hardly};
 use self::round_off::RoundOff;
+use self::states::States;
 use self::travel::Travel;
+use self::turning::Turning;
 use self::violations::Violations;
 use crate::constraints::row_units::characteristic_length;
 use crate::constraints::rows::Rows;
@@ -98,7 +103,7 @@ use crate::mechanism::kernels::Mechanism;
 const EVERY: usize = 16;
 
 /// How many steps at the start of a run are all looked at.
-const EACH: usize = 4;
+const EACH: usize = 64;
 
 /// What the monitor of a run saw: violations by joint, pivots, energy.
 pub struct Monitor<S: Scalar, M: Mechanism> {
@@ -106,6 +111,7 @@ pub struct Monitor<S: Scalar, M: Mechanism> {
     length: S,
     measure: MotionMeasure<S, M>,
     travel: Travel<S>,
+    turning: Turning<S, M>,
     memory: Memory<S, M>,
     rest: Rest<S, M>,
     violations: Violations<S, M>,
@@ -118,6 +124,7 @@ pub struct Monitor<S: Scalar, M: Mechanism> {
     compliance: Compliance<S>,
     unconverged: Unconverged<S>,
     control: Control<S>,
+    states: States<S, M>,
     /// The rate (1/s) at which the formulation takes violations away; zero where they stay.
     decay: S,
     /// The time of the step whose violations and energies were taken last.
@@ -133,6 +140,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             length,
             measure: MotionMeasure::at(rows, state, length),
             travel: Travel::from(time),
+            turning: Turning::from(state),
             memory: Memory::whole(time, state, kinetic),
             rest: Rest::unknown(state),
             violations: Violations::none(time, rows),
@@ -145,6 +153,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             compliance: Compliance::none(),
             unconverged: Unconverged::none(),
             control: Control::none(),
+            states: States::none(),
             decay: S::zero(),
             looked: time,
         }
@@ -204,6 +213,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             self.looked = step.end;
         }
         self.travel.step(step);
+        self.turning.step(step.state, &step.motion);
         self.phase_error.step(&self.measure, step);
         if self.rest.lasts() {
             let hardly = self.hardly();
@@ -212,6 +222,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         self.pivots.step(step);
         self.gradients.step(step);
         self.norm_drift.step(step);
+        self.states.step(step, self.control.is_there());
     }
 
     /// A way (m) that says of no motion so far.
@@ -234,7 +245,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             let look = &Look::at(constants, time, state);
             self.violations.look(time, look);
             self.energy.look(time, look);
-            self.memory.look(constants, (time, state), look);
+            self.memory.look(constants, (time, state), look, None);
             self.looked = time;
         }
     }
