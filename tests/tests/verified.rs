@@ -180,6 +180,68 @@ fn falls_from_the_upright() {
     check(fallen(Heun::every(5e-3)), 0.1);
 }
 
+/// Reports within the steps of the companion, on their ends and beside them: equal times are
+/// compared, and the estimate is the same.
+#[test]
+fn reports_on_ends_of_steps_that_were_passed() {
+    let rod = RodPendulum::default();
+    let worst = |is_projected, reports| {
+        let simulation = Simulation::new(&rod, StandardLagrange, Rk4::every(0.05)).verified();
+        let quiet = |_: &Sample<'_, f64, RodPendulum>| ControlFlow::Continue(());
+        let (span, reports) = (0.0..=5.0, every(reports));
+        let report = if is_projected {
+            let simulation = simulation.projection(Projection::default());
+            simulation.run(span, reports, quiet)
+        } else {
+            simulation.joint_coordinates().run(span, reports, quiet)
+        };
+        let found = report.expect("it runs").verification.expect("verified");
+        found.worst().expect("a body").rotation
+    };
+    for is_projected in [false, true] {
+        let right = worst(is_projected, 0.05);
+        assert!(right > 1e-7 && right < 1e-3, "{right:e}");
+        for reports in [0.025, 0.02, 0.01, 0.005] {
+            let found = worst(is_projected, reports);
+            assert!(
+                found > 0.9 * right && found < 1.5 * right,
+                "{found:e} {right:e}"
+            );
+        }
+    }
+}
+
+/// The bias of a penalty is no matter of steps: the companion has another one.
+#[test]
+fn the_bias_of_a_penalty_is_estimated() {
+    let (rod, pivot) = (RodPendulum::default(), RodPendulum::HANDLES.pivot);
+    let ode = DormandPrince::new(Tolerance {
+        relative: 1e-10,
+        absolute: 1e-12,
+    });
+    let mut truth = 0.0;
+    Simulation::new(&rod, StandardLagrange, ode)
+        .joint_coordinates()
+        .run(0.0..=2.0, every(2.0), |sample| {
+            truth = sample.angle(pivot);
+            ControlFlow::Continue(())
+        })
+        .expect("it runs");
+    for alpha in [1e3, 1e4, 1e6] {
+        let mut wrong = 0.0;
+        let report = Simulation::new(&rod, Penalty::new(alpha, 10.0, 1.0), ode)
+            .absolute_coordinates()
+            .verified()
+            .run(0.0..=2.0, every(2.0), |sample| {
+                wrong = f64::abs(sample.angle(pivot) - truth);
+                ControlFlow::Continue(())
+            })
+            .expect("it runs");
+        assert!(wrong > 1e-8, "{wrong:e}");
+        tells(report.verification, wrong, |worst| worst.rotation);
+    }
+}
+
 /// A point at rest, and one pulse of 0.1 s in 10 s.
 #[test]
 fn a_pulse_between_steps() {

@@ -242,6 +242,25 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
     }
 }
 
+/// Leaves of motions what moves along the constraints of a state as they stand at a time: the
+/// nearest ones, by kinetic energy, with `D u = 0`.
+pub(crate) fn free_parts<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    (time, state): (S, &M::State<S>),
+    motions: &mut [M::Velocities<S>],
+) {
+    let rows = Rows::at(constants, time, state);
+    let part = part(S::zero(), Depth::Dependent, S::one());
+    let (coefficients, factors) = compliant::<S, M>(constants, &rows, state, part);
+    let mass = M::mass(constants);
+    for motion in motions {
+        let places = motion.as_mut_slice().iter_mut().zip(mass.as_slice());
+        places.for_each(|(u, &mass)| *u = *u * mass);
+        let lower = M::Multipliers::<S>::zeros();
+        *motion = M::solve::<S, Compliant>(constants, &coefficients, &factors, motion, &lower).0;
+    }
+}
+
 /// How much of a trial motion the constraints leave free: the share of its energy that stays when
 /// it is projected onto the motions with `D u = 0`. Zero where the constraints determine the
 /// velocities, about one over the number of velocities for one degree of freedom.

@@ -77,6 +77,14 @@ pub trait Formulation<S: Real>: Copy + Debug {
         None
     }
 
+    /// The formulation for a second run, by which the error of the first is estimated
+    /// ([`Simulation::verified`](crate::Simulation::verified)). One with a compliance has twice of
+    /// it there: both differ by what the first is off by.
+    #[must_use]
+    fn companion(&self) -> Self {
+        *self
+    }
+
     /// How many metres a radian counts as where a compliance is given in metres: a row in radians
     /// has it over the square of that.
     fn radian(&self) -> S {

@@ -66,6 +66,11 @@ impl<S: Real> Formulation<S> for Penalty<S> {
         stabilisation(self.alpha, self.omega, self.mu)
     }
 
+    fn companion(&self) -> Self {
+        let alpha = S::constant(0.5) * self.alpha;
+        Self { alpha, ..*self }
+    }
+
     fn radian(&self) -> S {
         self.radian.unwrap_or(S::one())
     }

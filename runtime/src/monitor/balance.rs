@@ -6,6 +6,9 @@
 use super::limits::DIGITS;
 use crate::math::scalar::Real;
 
+/// Work over what is exchanged, whatever its sign, that sets no phase of its own.
+const NEXT_TO_NOTHING: f64 = 1e-3;
+
 /// Change of energy against the work that was put in.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance<S> {
@@ -26,14 +29,32 @@ pub(super) struct Balance<S> {
     /// By how much the integral of the power may be off (J): what the parabola changes of the
     /// trapezoid, step by step.
     unsure: S,
+    /// What was not known of the work of first steps (J) before the second ones told.
+    late: S,
     /// The work whatever its sign (J).
     turnover: S,
     /// The last power (W) and the time of it, and the divided difference before.
     before: Option<(S, S)>,
     slope: Option<(S, S)>,
+    /// What is not known of the work of a first step (J), until the next one tells.
+    first: Option<S>,
     /// What no force accounts for (J), where it was largest, and when.
     worst: (S, S),
     last: S,
+    /// Where energies were taken last: the time (s) and both energies of the integrals, which are
+    /// over what no force accounts for, and over the kinetic energy (J s).
+    levelled: Option<(S, [S; 2])>,
+    integrals: [S; 2],
+    duration: S,
+}
+
+/// What no force accounts for, and the kinetic energy, on average over time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mean<S> {
+    /// What no force accounts for, over the mean kinetic energy.
+    pub(super) change: S,
+    /// The largest kinetic energy over the mean.
+    pub(super) peak: S,
 }
 
 impl<S: Real> Balance<S> {
@@ -48,11 +69,16 @@ impl<S: Real> Balance<S> {
             height: potential.abs(),
             parts: zero,
             unsure: zero,
+            late: zero,
             turnover: zero,
             before: None,
             slope: None,
+            first: None,
             worst: (zero, zero),
             last: zero,
+            levelled: None,
+            integrals: [zero; 2],
+            duration: zero,
         }
     }
 
@@ -65,6 +91,7 @@ impl<S: Real> Balance<S> {
     pub(super) fn restart(&mut self) {
         self.before = None;
         self.slope = None;
+        self.first = None;
     }
 
     /// Energy (J) that an event puts in is no work, and nothing to account for.
@@ -82,6 +109,41 @@ impl<S: Real> Balance<S> {
         if self.last.abs() > self.worst.0.abs() {
             self.worst = (self.last, time);
         }
+        let now = [self.last, kinetic];
+        if let Some((then, before)) = self.levelled {
+            let step = time - then;
+            let half = S::constant(0.5) * step;
+            let pairs = now.iter().zip(before);
+            for (sum, (&now, before)) in self.integrals.iter_mut().zip(pairs) {
+                *sum = half.fused(now + before, *sum);
+            }
+            self.duration = self.duration + step;
+        }
+        self.levelled = Some((time, now));
+    }
+
+    /// Averages over time; zero where what no force accounts for is not known.
+    pub(super) fn mean(&self) -> Mean<S> {
+        let [change, kinetic] = self.integrals;
+        let unknown = (self.digits() + self.unsure) * self.duration;
+        let sure = (change.abs() - unknown).max(S::zero());
+        if kinetic > S::zero() {
+            Mean {
+                change: sure.quotient(kinetic),
+                peak: (self.kinetic * self.duration).quotient(kinetic),
+            }
+        } else {
+            Mean {
+                change: S::zero(),
+                peak: S::one(),
+            }
+        }
+    }
+
+    /// Round-off of the energies themselves (J), as in a mechanism far from the origin.
+    fn digits(&self) -> S {
+        let parts = self.parts + self.height + self.kinetic;
+        S::constant(DIGITS) * S::EPSILON * parts
     }
 
     /// Takes the work (J) of a step that was estimated twice.
@@ -105,11 +167,22 @@ impl<S: Real> Balance<S> {
             self.turnover = self.turnover + turnover;
             if let Some((former, former_step)) = self.slope {
                 let curvature = (slope - former).quotient(step + former_step);
-                let bend = curvature * step * step * step * S::constant(1.0 / 6.0);
+                let sixth = curvature * S::constant(1.0 / 6.0);
+                let bend = sixth * step * step * step;
                 work = work - bend;
                 self.unsure = self.unsure + bend.abs();
+                // Of a first step no parabola was known.
+                if let Some(unknown) = self.first.take() {
+                    let bend = sixth * former_step * former_step * former_step;
+                    work = work - bend;
+                    let known = (unknown - bend.abs()).max(S::zero());
+                    self.unsure = self.unsure - known;
+                    self.late = self.late + known;
+                }
             } else {
-                self.unsure = self.unsure + (power - last).abs() * step;
+                let unknown = (power - last).abs() * step;
+                self.first = Some(unknown);
+                self.unsure = self.unsure + unknown;
             }
             self.work = self.work + work;
             self.exchanged = self.exchanged.max(self.work.abs());
@@ -150,27 +223,24 @@ impl<S: Real> Balance<S> {
     }
 
     /// How much of the work is not known, whatever its sign: large where forces change faster than
-    /// steps follow.
+    /// steps follow, and where they begin or end within what a few steps pass.
     pub(super) fn unknown_share(&self) -> S {
-        if self.unsure > S::zero() {
-            self.unsure.quotient(self.turnover)
+        let unknown = self.unsure + self.late;
+        if unknown > S::zero() {
+            unknown.quotient(self.turnover)
         } else {
             S::zero()
         }
     }
 
-    /// Whether nothing works on the mechanism: no force without a potential, no driver, no
-    /// potential that changes by the time alone.
+    /// Whether next to nothing works on the mechanism: forces without a potential, drivers, and
+    /// potentials that change by the time alone.
     pub(super) fn is_of_a_closed_system(&self) -> bool {
-        self.before.is_none() && self.turnover <= S::zero()
+        self.turnover <= S::constant(NEXT_TO_NOTHING) * self.size()
     }
 
     fn relative(&self, energy: S) -> S {
-        // Round-off of the energies themselves, as in a mechanism far from the origin, and what is
-        // not known of the work.
-        let parts = self.parts + self.height + self.kinetic;
-        let digits = S::constant(DIGITS) * S::EPSILON * parts;
-        let sure = energy.abs() - digits - self.unsure;
+        let sure = energy.abs() - self.digits() - self.unsure;
         if sure > S::zero() {
             (if energy < S::zero() { -sure } else { sure }).quotient(self.size())
         } else if sure <= S::zero() {

@@ -49,6 +49,11 @@ impl<S: Real> Control<S> {
         self.tolerance.is_some()
     }
 
+    /// The absolute tolerance, of a step control.
+    pub(super) fn absolute(&self) -> Option<S> {
+        self.tolerance.map(|(_, absolute)| absolute)
+    }
+
     /// The error (m) that it allows of a position so far from the origin.
     pub(super) fn allowed(&self, reach: S) -> S {
         match self.tolerance {

@@ -21,6 +21,9 @@ const ENERGY: f64 = 1e-2;
 /// steps that nothing controls: at about two radians of an oscillation a step.
 const FOLLOWED: f64 = 0.3;
 
+/// The power of the energy that the period of an orbit goes with.
+const PERIOD: f64 = 1.5;
+
 /// The work of a first step is not known, that of the next ones depends on it.
 const BEGINNING: usize = 8;
 
@@ -115,7 +118,7 @@ impl<S: Real, M: Mechanism> Energy<S, M> {
         self.balance.tells(ENERGY)
     }
 
-    /// Whether nothing works on the mechanism.
+    /// Whether next to nothing works on the mechanism.
     pub(super) fn is_of_a_closed_system(&self) -> bool {
         self.balance.is_of_a_closed_system()
     }
@@ -147,16 +150,41 @@ impl<S: Real, M: Mechanism> Energy<S, M> {
         })
     }
 
+    /// The same where the work of forces is not known, by what single steps gained (J).
+    pub(super) fn of_steps(&self, run: &RunFacts<S>, gained: S) -> Option<Warning> {
+        if run.rests || self.has_balance() {
+            return None;
+        }
+        let change = gained.quotient(self.balance.size() * run.lives);
+        let change = if gained == S::zero() { gained } else { change };
+        above(change.abs(), ENERGY).then(|| Warning::Energy {
+            change: change.to_f64(),
+            time: (run.start + run.duration).to_f64(),
+        })
+    }
+
     /// Of a change that is small.
     pub(super) fn phase(&self, run: &RunFacts<S>) -> Option<Warning> {
         let change = self.balance.drift().quotient(run.lives);
         let shift = S::constant(0.5) * change.abs() * run.travel;
-        let shift = shift.quotient(run.lives) * run.part_of_vibrations;
+        let shift = (shift * run.part_of_vibrations).max(self.shift_of_orbits(run));
+        let shift = shift.quotient(run.lives);
         above(shift, limits::PHASE).then(|| Warning::Phase {
             change: change.to_f64(),
             travel: run.travel.to_f64(),
             shift: shift.to_f64(),
         })
+    }
+
+    /// By how much a place on the way round is off, over the mean radius (rad).
+    ///
+    /// The period of an orbit goes with the power -3/2 of its energy, which is less than the
+    /// kinetic energy: all that it exchanges says little of it. What a place is off by goes with
+    /// the speed there.
+    fn shift_of_orbits(&self, run: &RunFacts<S>) -> S {
+        let mean = self.balance.mean();
+        let late = S::constant(PERIOD) * mean.change * run.round;
+        (late * mean.peak.sqrt()).quotient(run.lives)
     }
 
     /// Only where nothing controls the steps.

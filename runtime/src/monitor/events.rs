@@ -4,6 +4,7 @@ use super::Monitor;
 use super::beginning::{Beginning, shaken};
 use super::phase_error::PhaseError;
 use crate::constraints::extent::farthest;
+use crate::constraints::newton::free_parts;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::{Array, StateParts};
@@ -70,14 +71,29 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         PhaseError::<S, M>::is_due(self.travel.steps)
     }
 
-    /// Takes where the next step has led to, and where a rule of higher order leads.
-    pub(crate) fn judge(&mut self, ends: [&M::State<S>; 2]) {
-        self.phase_error.judge(&self.measure, ends);
+    /// Takes where the next step has led to at a time, where a rule of higher order leads, and the
+    /// forces there.
+    pub(crate) fn judge(
+        &mut self,
+        (constants, time): (&M::Constants<S>, S),
+        ends: [&M::State<S>; 2],
+        forces: &M::Velocities<S>,
+    ) {
+        let [end, better] = ends.map(|state| M::kinetic_energy(constants, state));
+        let [missed, slower] = PhaseError::<S, M>::missed_by(ends);
+        self.phase_error.gain(end - better, (&missed, forces));
+        let mut motions = [missed, slower, *ends[0].velocities()];
+        // What a driver prescribes is never late.
+        if M::REPORT.time.constraints {
+            free_parts::<S, M>(constants, (time, ends[0]), &mut motions);
+        }
+        self.phase_error.judge(&self.measure, ends[0], &motions);
     }
 
     /// Forces may jump here.
     pub(crate) fn restart(&mut self) {
         self.energy.restart();
+        self.states.restart();
     }
 
     /// An event has put so much energy (J) into the mechanism.

@@ -25,6 +25,8 @@ pub(super) struct Memory<S: Scalar, M: Mechanism> {
     /// The work (J) that dampers took, positive, and their power (W) then.
     taken: S,
     power: S,
+    /// The work (J) that was fed, as far as forces and drivers tell, and its power (W) then.
+    given: [S; 2],
     /// The integral of the kinetic energy (J s), the last one and the least one.
     action: S,
     kinetic: S,
@@ -64,6 +66,7 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
             time: start,
             taken: S::zero(),
             power: S::zero(),
+            given: [S::zero(); 2],
             action: S::zero(),
             kinetic,
             least: kinetic,
@@ -76,17 +79,19 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
     #[inline]
     pub(super) fn step(&mut self, step: &MonitoredStep<'_, S, M>) {
         if let Some(look) = step.look {
-            self.look(step.constants, (step.end, step.state), look);
+            self.look(step.constants, (step.end, step.state), look, step.power);
         }
     }
 
-    /// Looks at forces and velocities in a state with its energies.
+    /// Looks at forces and velocities in a state with its energies, and the power (W) of all
+    /// forces and drivers there, if it is known.
     #[inline(never)]
     pub(super) fn look(
         &mut self,
         constants: &M::Constants<S>,
         (time, state): (S, &M::State<S>),
         look: &Look<S, M>,
+        all: Option<S>,
     ) {
         let kinetic = look.kinetic;
         if M::REPORT.forces.is_empty() {
@@ -102,6 +107,10 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
         let step = time - self.time;
         let half = S::constant(0.5) * step;
         self.taken = half.fused(power + self.power, self.taken);
+        // What is not taken by dampers is fed, or taken in turn.
+        let feeds = all.map_or(S::zero(), |all| (all + power).max(S::zero()));
+        let [given, before] = self.given;
+        self.given = [half.fused(feeds + before, given), feeds];
         self.action = half.fused(kinetic + self.kinetic, self.action);
         self.least = self.least.min(kinetic);
         (self.time, self.power, self.kinetic) = (time, power, kinetic);
@@ -214,9 +223,16 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
 
     /// The part of what dampers took that was fed to the motion, which has gained so much energy
     /// (J): zero of a vibration that dies out, whose errors die out with it.
+    ///
+    /// Steps that do not follow a damper let it take more than there was. Then what was fed tells.
     pub(super) fn fed(&self, gained: S) -> S {
         // Looks are sixteen steps apart, so that what dampers took of a start may be seen twice.
-        let part = (self.taken + gained + gained).quotient(self.taken);
+        let mut fed = self.taken + gained + gained;
+        if !M::REPORT.time.potential {
+            let [given, _] = self.given;
+            fed = fed.min(given + given);
+        }
+        let part = fed.quotient(self.taken);
         if part > S::zero() {
             part.min(S::one())
         } else {

@@ -18,10 +18,11 @@
 //! | unconverged | `unconverged.rs` | every step |
 //! | tolerance and size | `control.rs` | every step |
 //! | derivatives | `growth.rs` | every step that carries some |
+//! | the user's states | `states.rs` | every step, where there are some |
 //!
-//! Three values judge nothing, and tell the others what counts: how far the mechanism has moved
-//! (`travel.rs`), how long the motion remembers its errors (`memory.rs`), and whether it is at rest
-//! (`rest.rs`).
+//! Four values judge nothing, and tell the others what counts: how far the mechanism has moved
+//! (`travel.rs`), how far it went round (`turning.rs`), how long the motion remembers its errors
+//! (`memory.rs`), and whether it is at rest (`rest.rs`).
 //!
 //! It looks at the coordinates that run: in relative ones at the joints that close loops, by the
 //! pivots that the steps leave. `passage.rs` follows pivots and gradients along assemblies and
@@ -54,7 +55,9 @@ mod rest;
 mod round_off;
 mod seen;
 mod singular;
+mod states;
 mod travel;
+mod turning;
 mod unconverged;
 mod verdict;
 mod violations;
@@ -87,7 +90,9 @@ use self::phase_error::PhaseError;
 use self::pivots::Pivots;
 use self::rest::{Rest, hardly};
 use self::round_off::RoundOff;
+use self::states::States;
 use self::travel::Travel;
+use self::turning::Turning;
 use self::violations::Violations;
 use crate::constraints::row_units::characteristic_length;
 use crate::constraints::rows::Rows;
@@ -101,7 +106,7 @@ use crate::mechanism::kernels::Mechanism;
 const EVERY: usize = 16;
 
 /// How many steps at the start of a run are all looked at.
-const EACH: usize = 4;
+const EACH: usize = 64;
 
 /// What the monitor of a run saw: violations by joint, pivots, energy.
 pub struct Monitor<S: Scalar, M: Mechanism> {
@@ -109,6 +114,7 @@ pub struct Monitor<S: Scalar, M: Mechanism> {
     length: S,
     measure: MotionMeasure<S, M>,
     travel: Travel<S>,
+    turning: Turning<S, M>,
     memory: Memory<S, M>,
     rest: Rest<S, M>,
     violations: Violations<S, M>,
@@ -122,6 +128,7 @@ pub struct Monitor<S: Scalar, M: Mechanism> {
     unconverged: Unconverged<S>,
     control: Control<S>,
     growth: Growth<S>,
+    states: States<S, M>,
     /// The rate (1/s) at which the formulation takes violations away; zero where they stay.
     decay: S,
     /// The time of the step whose violations and energies were taken last.
@@ -137,6 +144,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             length,
             measure: MotionMeasure::at(rows, state, length),
             travel: Travel::from(time),
+            turning: Turning::from(state),
             memory: Memory::whole(time, state, kinetic),
             rest: Rest::unknown(state),
             violations: Violations::none(time, rows),
@@ -150,6 +158,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             unconverged: Unconverged::none(),
             control: Control::none(),
             growth: Growth::from(time),
+            states: States::none(),
             decay: S::zero(),
             looked: time,
         }
@@ -210,6 +219,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             self.looked = step.end;
         }
         self.travel.step(step);
+        self.turning.step(step.state, &step.motion);
         self.phase_error.step(&self.measure, step);
         if self.rest.lasts() {
             let hardly = self.hardly();
@@ -219,6 +229,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         self.gradients.step(step);
         self.norm_drift.step(step);
         self.growth.step(step, self.travel.radians);
+        self.states.step(step, self.control.is_there());
     }
 
     /// A way (m) that says of no motion so far.
@@ -241,7 +252,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             let look = &Look::at(constants, time, state);
             self.violations.look(time, look);
             self.energy.look(time, look);
-            self.memory.look(constants, (time, state), look);
+            self.memory.look(constants, (time, state), look, None);
             self.looked = time;
         }
     }

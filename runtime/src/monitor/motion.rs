@@ -29,6 +29,9 @@ pub(crate) struct Motion<S> {
     /// Radians of motion of the step, and of the run so far.
     pub(super) turned: S,
     pub(super) travel: S,
+    /// The place of the velocity of the body whose translation is fastest; `None` where a rotation
+    /// is faster.
+    pub(super) translation: Option<usize>,
 }
 
 impl<S: Scalar, M: Mechanism> Clone for MotionMeasure<S, M> {
@@ -68,26 +71,33 @@ impl<S: Real, M: Mechanism> MotionMeasure<S, M> {
 
     /// The rate of the fastest body (rad/s).
     pub(super) fn of(&self, state: &M::State<S>) -> S {
-        let [rate, ..] = self.rates(state);
+        let ([rate, ..], _) = self.rates(state);
         rate
     }
 
     /// The rate of the fastest body (rad/s), and the squares of the largest speed (m^2/s^2) and
-    /// angular velocity (rad^2/s^2). Squares are compared, so that there is one root.
+    /// angular velocity (rad^2/s^2), with the place of the velocity of the fastest translation, if
+    /// no rotation is faster. Squares are compared, so that there is one root.
     #[inline]
-    pub(super) fn rates(&self, state: &M::State<S>) -> [S; 3] {
+    pub(super) fn rates(&self, state: &M::State<S>) -> ([S; 3], Option<usize>) {
         let velocities = state.velocities().as_slice();
         let (mut rate, mut speed, mut spin) = (S::zero(), S::zero(), S::zero());
+        let mut fastest = 0;
         for body in M::REPORT.bodies {
             let here = square(&read::<S, 3>(velocities, body.velocity));
             let [_, factor] = read(self.lengths.as_slice(), body.velocity);
             speed = speed.max(here);
-            rate = rate.max(here * factor);
+            let here = here * factor;
+            if here > rate {
+                fastest = body.velocity;
+            }
+            rate = rate.max(here);
             if body.kind == BodyKind::Rigid {
                 spin = spin.max(square(&read::<S, 3>(velocities, body.velocity + 3)));
             }
         }
-        [rate.max(spin).sqrt(), speed, spin]
+        let translation = (rate > spin).then_some(fastest);
+        ([rate.max(spin).sqrt(), speed, spin], translation)
     }
 
     /// By how much the rate of a body is another than at the start, at the most (rad/s): of rigid

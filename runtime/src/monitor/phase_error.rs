@@ -52,6 +52,8 @@ pub(super) struct PhaseError<S: Scalar, M: Mechanism> {
     /// turned (rad), and of what the rate changed by.
     rate: S,
     cubes: [S; 2],
+    /// The energy (J) that steps gave to the motion, see [`PhaseError::energy`].
+    energy: S,
     /// The largest change of the rate of a body (rad/s), for methods whose velocities are ahead.
     changed: S,
 }
@@ -74,6 +76,7 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
             model: ErrorModel::default(),
             rate: S::zero(),
             cubes: [S::zero(); 2],
+            energy: S::zero(),
             changed: S::zero(),
         }
     }
@@ -113,52 +116,82 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         steps % EVERY == 1
     }
 
-    /// Takes where a step has led to, and where a rule of higher order leads.
+    /// What a step has missed of the coordinates (m, rad) and of the velocities (m/s, rad/s), beside
+    /// a rule of higher order.
+    pub(super) fn missed_by([end, better]: [&M::State<S>; 2]) -> [M::Velocities<S>; 2] {
+        let mut missed = M::Velocities::<S>::zeros();
+        let mut slower = *end.velocities();
+        let [from, to] = [better, end].map(|state| state.coordinates().as_slice());
+        for info in M::REPORT.bodies {
+            let [from, to]: [[S; 3]; 2] = [from, to].map(|x| read(x, info.coordinate));
+            write(missed.as_mut_slice(), info.velocity, minus(&to, &from));
+            if info.kind == BodyKind::Rigid {
+                let turn = rotation::<S, M>(info.coordinate, [better, end]);
+                write(missed.as_mut_slice(), info.velocity + 3, turn);
+            }
+        }
+        let should = better.velocities().as_slice();
+        let pairs = slower.as_mut_slice().iter_mut().zip(should);
+        pairs.for_each(|(is, &should)| *is = *is - should);
+        [missed, slower]
+    }
+
+    /// Takes what kinetic energy (J) a step has gained that should not be, with what it has missed,
+    /// and the forces there.
+    pub(super) fn gain(
+        &mut self,
+        kinetic: S,
+        (missed, forces): (&M::Velocities<S>, &M::Velocities<S>),
+    ) {
+        let pairs = missed.as_slice().iter().zip(forces.as_slice());
+        let gained = pairs.fold(kinetic, |sum, (&x, &force)| (-force).fused(x, sum));
+        self.energy = gained.fused(S::constant(EVERY as f64), self.energy);
+    }
+
+    /// Takes what a step that has led to a state has missed of coordinates and of velocities, and
+    /// the velocities there.
     pub(super) fn judge(
         &mut self,
         measure: &MotionMeasure<S, M>,
-        [end, better]: [&M::State<S>; 2],
+        end: &M::State<S>,
+        motions: &[M::Velocities<S>; 3],
     ) {
         let first = self.first;
-        let velocities = end.velocities().as_slice();
+        let [missed, slower, velocities] = motions.each_ref().map(Array::as_slice);
         let mut most = [S::zero(); 2];
         for (body, info) in M::REPORT.bodies.iter().enumerate() {
             let part = S::one().quotient(measure.length_of(body));
-            let translation = |from: &M::State<S>, to: &M::State<S>| {
-                let [from, to] = [from.coordinates().as_slice(), to.coordinates().as_slice()];
-                let [from, to]: [[S; 3]; 2] =
-                    [read(from, info.coordinate), read(to, info.coordinate)];
-                times(&minus(&to, &from), part)
-            };
+            let size = |elements: &[S], place| square(&read::<S, 3>(elements, place)).sqrt();
+            let [from, to] = [&first, end].map(|state| state.coordinates().as_slice());
+            let [from, to]: [[S; 3]; 2] = [from, to].map(|x| read(x, info.coordinate));
             let motion = Motion {
-                missed: translation(better, end),
-                way: translation(&first, end),
+                missed: times(&read(missed, info.velocity), part),
+                way: times(&minus(&to, &from), part),
                 velocity: times(&read(velocities, info.velocity), part),
             };
             self.add(info.velocity, &motion);
-            let off = |place, part: S| {
-                let is = read(velocities, place);
-                let should = read(better.velocities().as_slice(), place);
-                square(&minus(&is, &should)).sqrt() * part
-            };
-            most = larger(
-                most,
-                [square(&motion.missed).sqrt(), off(info.velocity, part)],
-            );
+            let off = [missed, slower].map(|elements| size(elements, info.velocity) * part);
+            most = larger(most, off);
             if info.kind == BodyKind::Rigid {
+                let place = info.velocity + 3;
                 let motion = Motion {
-                    missed: rotation::<S, M>(info.coordinate, [better, end]),
+                    missed: read(missed, place),
                     way: rotation::<S, M>(info.coordinate, [&first, end]),
-                    velocity: read(velocities, info.velocity + 3),
+                    velocity: read(velocities, place),
                 };
-                self.add(info.velocity + 3, &motion);
-                let off = off(info.velocity + 3, S::one());
-                most = larger(most, [square(&motion.missed).sqrt(), off]);
+                self.add(place, &motion);
+                most = larger(most, [missed, slower].map(|elements| size(elements, place)));
             }
         }
         for (sum, most) in self.missed.iter_mut().zip(most) {
             *sum = most.fused(S::constant(EVERY as f64), *sum);
         }
+    }
+
+    /// The energy (J) that all steps together gave to the motion, as the single ones tell: what
+    /// they gained beside a rule of higher order, of kinetic energy and against the forces.
+    pub(super) fn energy(&self) -> S {
+        self.energy
     }
 
     /// What all steps have missed, whatever its direction: of coordinates, and of velocities beside
@@ -247,6 +280,7 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         let lives = run.lives * run.fed;
         let shift = shift.quotient(lives.max(S::one()));
         let shift = shift.max(self.led_shift(run.longest)) * run.part_of_vibrations;
+        let shift = shift.max(self.shift_of_orbits(run));
         above(shift, limits::PHASE).then(|| Warning::LongSteps {
             shift: shift.to_f64(),
         })
@@ -263,6 +297,11 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         } else {
             S::zero()
         }
+    }
+
+    /// What goes round something is late by twice what it misses across its way.
+    fn shift_of_orbits(&self, run: &RunFacts<S>) -> S {
+        S::constant(2.0) * self.missed(run.fastest) * run.part_that_goes_round
     }
 
     /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what a

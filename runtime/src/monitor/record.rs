@@ -81,10 +81,14 @@ pub(super) struct RunFacts<S> {
     pub(super) fed: S,
     /// The part of the radians of motion that vibrations of more than a length leave.
     pub(super) part_of_vibrations: S,
+    /// By how much the velocity of the fastest translation has turned in one direction (rad), and
+    /// the part of the radians of translations that this is.
+    pub(super) round: S,
+    pub(super) part_that_goes_round: S,
     /// Whether the method controls its steps.
     pub(super) is_controlled: bool,
     /// Whether the balance of energy tells anything.
     pub(super) has_balance: bool,
-    /// Whether nothing works on the mechanism.
+    /// Whether next to nothing works on the mechanism.
     pub(super) is_closed: bool,
 }

@@ -45,7 +45,7 @@ impl<S: Real> Travel<S> {
         end: S,
         state: &M::State<S>,
     ) -> Motion<S> {
-        let [rate, speed, spin] = measure.rates(state);
+        let ([rate, speed, spin], translation) = measure.rates(state);
         let turned = rate * (end - self.time);
         Motion {
             rate,
@@ -53,6 +53,7 @@ impl<S: Real> Travel<S> {
             spin,
             turned,
             travel: self.radians + turned,
+            translation,
         }
     }
 

@@ -14,6 +14,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         let slip_of_round_off = self.round_off.speed(run);
         // What is told already is not told again.
         let energy = self.energy.verdict(run);
+        let energy = energy.or_else(|| self.energy.of_steps(run, self.phase_error.energy()));
         let phase = self.energy.phase(run).filter(|_| energy.is_none());
         let long_run = self.round_off.long_run(run).filter(|_| phase.is_none());
         let singular = self.pivots.verdict(run);
@@ -36,6 +37,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             self.energy.coarse_steps(run),
             self.phase_error.verdict(run),
             self.growth.verdict(run),
+            self.states.verdict(self.control.absolute()),
         ])
     }
 
@@ -56,6 +58,8 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             lives: self.memory.lives(&self.measure),
             fed: self.memory.fed(self.energy.gained()),
             part_of_vibrations: self.memory.part_of_vibrations(&self.measure),
+            round: self.turning.round(),
+            part_that_goes_round: self.turning.part_that_goes_round(),
             is_controlled: self.control.is_there(),
             has_balance: self.energy.has_balance(),
             is_closed: self.energy.is_of_a_closed_system(),

@@ -124,6 +124,13 @@ pub enum Warning {
         /// The size of the mechanism (m).
         size: f64,
     },
+    /// The steps, or the absolute tolerance, are coarse for a state of the user's own.
+    CoarseState {
+        /// The state's field.
+        state: &'static str,
+        /// What it may be off by, over its largest value.
+        error: f64,
+    },
     /// Steps are long for the angular velocity: Euler parameters leave length 1 within a step.
     Orientation {
         /// The largest `| |p| - 1 |` at the end of a step.
@@ -304,6 +311,12 @@ impl fmt::Display for Warning {
                 Measured(absolute),
                 Measured(size)
             ),
+            Self::CoarseState { state, error } => write!(
+                f,
+                "the state `{state}` may be off by {} of its largest value: use a smaller step, a method of higher order, or an absolute tolerance in \
+                 proportion to it",
+                Measured(error)
+            ),
             Self::Orientation { drift, shift } => write!(
                 f,
                 "Euler parameters left length 1 by up to {} in a step, and angles may be off by about {} rad: steps are too long for the angular \
@@ -365,7 +378,7 @@ fn amount(
 }
 
 /// The kinds of warning that one run may raise.
-const KINDS: usize = 17;
+const KINDS: usize = 18;
 
 /// The warnings of a run, the gravest first; empty where nothing is.
 ///

@@ -3,7 +3,7 @@
 //! Indicators look at single steps. How errors grow over many steps (orbits, falls from the
 //! upright, chaos, closures that jump) only a second run tells. It has another tolerance or step
 //! and goes from report to report with the first. Their difference is about the error of the
-//! coarser one.
+//! coarser one. A bias that does not go with the steps, as of a penalty, is made another one.
 
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
@@ -101,16 +101,21 @@ impl<S: Real, M: Mechanism> Verification<S, M> {
         }
     }
 
-    /// The estimated error of a body.
+    /// The estimated error of a body, until the companion [`ended`](Self::ended).
     #[must_use]
     pub fn body(&self, body: BodyHandle<M>) -> BodyError<S> {
         self.of(body.index())
     }
 
-    /// The body with the largest estimated error, a radian counted as a metre; `None` for a
-    /// mechanism without bodies.
+    /// The body with the largest estimated error, a radian counted as a metre. `None` for a
+    /// mechanism without bodies, and where the companion ended before the run: then
+    /// [`ended`](Self::ended) says when and why, and [`body`](Self::body) has the errors until
+    /// then.
     #[must_use]
     pub fn worst(&self) -> Option<BodyError<S>> {
+        if self.ended.is_some() {
+            return None;
+        }
         let bodies = (0..M::REPORT.bodies.len()).map(|body| self.of(body));
         let size = |error: &BodyError<S>| error.position.max(error.rotation);
         bodies.reduce(|worst, next| {
@@ -226,6 +231,9 @@ where
     integration: Option<I::Integration>,
     /// When (s) and how its bodies stood last.
     time: S,
+    /// Whether the end of its last step is still to be taken: it lies beyond the last report, or
+    /// has just been reached.
+    is_open: bool,
     bodies: M::State<S>,
     found: Verification<S, M>,
 }
@@ -249,6 +257,7 @@ where
             integrator,
             integration: None,
             time,
+            is_open: false,
             bodies: *bodies,
             found: Verification::nothing(),
         }
@@ -267,6 +276,7 @@ where
             return;
         }
         self.count();
+        self.is_open = false;
         let start = self.dynamics.nearest(&self.bodies);
         match self.integrator.start(&mut self.dynamics, *span, start) {
             Ok(integration) => self.integration = Some(integration),
@@ -318,9 +328,9 @@ where
         };
         let budget = self.integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.found.evaluations);
-        while integration.time() < time {
-            integration.advance(&mut self.dynamics)?;
-            if integration.time() <= time {
+        loop {
+            if self.is_open && integration.time() <= time {
+                self.is_open = false;
                 let (near, end) = ((self.time, &self.bodies), integration.time());
                 self.bodies = bodies_within(&mut self.dynamics, integration, near, end)?;
                 self.time = end;
@@ -331,6 +341,11 @@ where
                     integration.replace(state);
                 }
             }
+            if integration.time() >= time {
+                break;
+            }
+            integration.advance(&mut self.dynamics)?;
+            self.is_open = true;
             if integration.counts().evaluations > budget {
                 return Err(Fault::Budget {
                     evaluations: integration.counts().evaluations,

@@ -11,6 +11,7 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::orientations::with_unit_orientations;
 use crate::monitor::{Monitor, fastest};
 use crate::run::companion::Companion;
 use crate::run::deferred::Deferred;
@@ -443,7 +444,11 @@ where
             integration.replace(held);
         }
         if let (Some(monitor), Some(better)) = (&mut self.monitor, better) {
-            monitor.judge([&state, &better]);
+            let forces = self
+                .dynamics
+                .all_forces(time, &with_unit_orientations::<S, M>(&state));
+            let constants = self.dynamics.constants();
+            monitor.judge((constants, time), [&state, &better], &forces);
         }
         let estimate = integration.estimate();
         self.accept((time, integration.state()), state, estimate, last_good)

@@ -483,8 +483,11 @@ where
         });
         let companion = if self.is_verified {
             let integrator = integrator.companion(end - start);
-            integrator
-                .map(|integrator| Companion::new(dynamics.clone(), integrator, (start, &state)))
+            let formulation = self.formulation.companion();
+            let dynamics = Dynamics::of_parameters(given, formulation)?;
+            let forces = Heeding::new(&self.forces, &given);
+            let dynamics = dynamics.with_forces(forces).coordinates::<C>();
+            integrator.map(|integrator| Companion::new(dynamics, integrator, (start, &state)))
         } else {
             None
         };

@@ -6,13 +6,16 @@
 mod between;
 mod clock;
 mod digits;
+mod laws;
 mod limits;
+mod orbits;
 mod orientation;
 mod origins;
 mod outside;
 mod phase_error;
 mod readings;
 mod start;
+mod states;
 mod stopped;
 mod told;
 mod turns;

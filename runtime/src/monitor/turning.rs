@@ -1,0 +1,84 @@
+//! How far velocities have turned: the radians of a motion that goes round something.
+//!
+//! A path over a length counts too many radians of a long vibration, and as many of an orbit as its
+//! start happens to be near. The direction of the velocity turns by a full turn a round of every
+//! orbit. What goes to and fro turns it back.
+//!
+//! It costs two products and a root in steps in which a translation is what moves fastest. Only by
+//! it a small change of energy tells the phase of an orbit: `tests/tests/sound/orbits.rs`.
+
+use super::motion::Motion;
+use crate::math::scalar::{Real, Scalar};
+use crate::math::vec3::{cross, read, square};
+use crate::mechanism::kernels::Mechanism;
+use crate::state::vector::{Array, StateParts};
+
+/// The turn of the velocity of the body whose translation is fastest.
+pub(super) struct Turning<S: Scalar, M: Mechanism> {
+    /// Velocities at the end of the last step.
+    before: M::Velocities<S>,
+    /// The sum over the steps, with its axis (rad): less than it is in steps of a radian or more.
+    turned: [S; 3],
+    /// The way (rad) of steps in which a translation was fastest.
+    way: S,
+}
+
+impl<S: Scalar, M: Mechanism> Clone for Turning<S, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Scalar, M: Mechanism> Copy for Turning<S, M> {}
+
+impl<S: Real, M: Mechanism> Turning<S, M> {
+    pub(super) fn from(start: &M::State<S>) -> Self {
+        Self {
+            before: *start.velocities(),
+            turned: [S::zero(); 3],
+            way: S::zero(),
+        }
+    }
+
+    /// Takes the velocities at the end of a step.
+    #[inline]
+    pub(super) fn step(&mut self, state: &M::State<S>, motion: &Motion<S>) {
+        if M::REPORT.time.constraints {
+            return;
+        }
+        if let Some(place) = motion.translation {
+            self.add(state, place);
+            self.way = self.way + motion.turned;
+        }
+        self.before = *state.velocities();
+    }
+
+    #[inline]
+    fn add(&mut self, state: &M::State<S>, place: usize) {
+        let from: [S; 3] = read(self.before.as_slice(), place);
+        let to: [S; 3] = read(state.velocities().as_slice(), place);
+        let sizes = (square(&from) * square(&to)).sqrt();
+        if sizes > S::zero() {
+            let part = sizes.reciprocal();
+            for (sum, turn) in self.turned.iter_mut().zip(cross(&from, &to)) {
+                *sum = turn.fused(part, *sum);
+            }
+        }
+    }
+
+    /// By how much the velocity has turned in one direction (rad); zero where a driver may lead
+    /// it, which is never late.
+    pub(super) fn round(&self) -> S {
+        square(&self.turned).sqrt()
+    }
+
+    /// The part of the way (rad) of translations that goes round: one of a circle of the length of
+    /// the body.
+    pub(super) fn part_that_goes_round(&self) -> S {
+        if self.way > S::zero() {
+            self.round().quotient(self.way).min(S::one())
+        } else {
+            S::zero()
+        }
+    }
+}
