@@ -434,6 +434,7 @@ where
         let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
         if let Some(past) = past {
             take_values(&mut dynamics, past)?;
+            dynamics.renew_limits()?;
         }
         let constants = *dynamics.constants();
         let described = || M::initial_state(&constants);
