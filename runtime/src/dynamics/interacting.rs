@@ -25,6 +25,21 @@ where
         self.forces.interactions()
     }
 
+    /// Takes the limits of the description by the parameters that it has now.
+    ///
+    /// # Errors
+    /// [`Fault::InteractionSetting`].
+    pub(crate) fn renew_limits(&mut self) -> Result<(), Fault> {
+        if A::INTERACTS {
+            let parameters = *self.parameters();
+            self.forces.renew(&parameters);
+            for tracked in self.tracked() {
+                tracked.interaction.check()?;
+            }
+        }
+        Ok(())
+    }
+
     /// Leaves the efforts that conditions of modes ask for in the statuses.
     pub(crate) fn look_at_modes(&self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
         let mut list = self.tracked().iter();

@@ -6,6 +6,7 @@
 mod checkpoint;
 mod interactions;
 mod kinds;
+mod left_out;
 pub(crate) mod message;
 pub(crate) mod readable;
 #[cfg(feature = "serde")]
@@ -15,6 +16,6 @@ mod switches;
 
 pub use checkpoint::CheckpointFault;
 pub use kinds::{
-    AngleSet, Fault, LeavesOut, NotFinite, ParameterError, ParameterFault, Quantity, RunError,
-    SimulationError, Unheeding,
+    AngleSet, Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
 };
+pub use left_out::{LeavesOut, Unheeding};

@@ -217,6 +217,14 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Heed
         self.list.as_ref()
     }
 
+    fn renew(&mut self, parameters: &M::Parameters<S>) {
+        let fresh = self.forces.tracked(parameters);
+        for (fresh, now) in fresh.as_ref().iter().zip(self.list.as_ref()) {
+            fresh.status.set(now.status.get());
+        }
+        self.list = fresh;
+    }
+
     #[inline(always)]
     fn interact<F: Formulation<S>, C: Coordinates<M>>(
         &self,

@@ -72,6 +72,14 @@ pub trait AppliedForces<S: Scalar, M: Mechanism> {
         &[]
     }
 
+    /// Takes the limits of the description by other parameters.
+    #[doc(hidden)]
+    fn renew(&mut self, _parameters: &M::Parameters<S>)
+    where
+        S: Real,
+    {
+    }
+
     /// Does what is asked for with the efforts of the interactions.
     ///
     /// # Errors

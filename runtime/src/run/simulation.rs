@@ -439,6 +439,7 @@ where
         let integrator = &self.integrator.for_length(length);
         if let Some(past) = past {
             take_values(&mut dynamics, past)?;
+            dynamics.renew_limits()?;
         }
         let constants = *dynamics.constants();
         let described = || M::initial_state(&constants);

@@ -276,12 +276,15 @@ where
         self.clock.time()
     }
 
-    /// Takes the present inputs and parameters of the mechanism, to be called between steps.
+    /// Takes the present inputs and parameters of the mechanism, to be called between steps, and the
+    /// limits of the description that depend on them.
     ///
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
+    /// [`Fault::InteractionSetting`] of a limit.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
-        self.dynamics.update(mechanism)
+        self.dynamics.update(mechanism)?;
+        self.dynamics.renew_limits()
     }
 
     /// Takes these inputs, to be called between steps: in the number type of the run, at the cost

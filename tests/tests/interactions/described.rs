@@ -164,6 +164,45 @@ fn interactions_of_a_run_stand_beside_limits_of_the_description() {
     assert!(stops.expect("it falls").stopped);
 }
 
+/// A handler, or the owner of a loop, lowers the floor while the ball flies.
+#[test]
+fn limits_change_with_their_parameters() {
+    let [floor, height, bounce] = NUMBERS;
+    let (shaft, h) = (shaft(), Shaft::HANDLES);
+    let lower = Shaft::new(floor - 0.3, height + 0.3, bounce).expect("acceptable");
+    let mut least = 0.0_f64;
+    let mut simulation = shaft
+        .simulation(StandardLagrange, DormandPrince::new(tight()))
+        .on(
+            "lower",
+            Crossing::Rising,
+            |s| s.time() - 0.2,
+            |event| event.update(&lower),
+        );
+    let report = simulation.run(0.0..=0.8, every(0.01), |sample| {
+        least = least.min(sample.displacement(h.rail));
+    });
+    let end = report.expect("it bounces").state;
+    let view = lower.view(0.8, &end).expect("acceptable");
+    let wanted = bounced(0.8, [floor - 0.3, height + 0.3, bounce]);
+    assert!(
+        (view.displacement(h.rail) - wanted).abs() < 1e-9,
+        "{wanted}"
+    );
+    assert!((least + 0.8).abs() < 1e-9, "{least}");
+    let mut stepper =
+        Stepper::<f64, _, _, _>::new(&shaft, StandardLagrange, Rk4).expect("acceptable");
+    let mut state = stepper.initial_state().expect("described");
+    for number in 0..800 {
+        if number == 200 {
+            stepper.update(&lower).expect("acceptable");
+        }
+        stepper.step(&mut state, 1e-3).expect("it bounces");
+    }
+    let bodies = stepper.bodies(&state);
+    assert!((stepper.view(&bodies).displacement(h.rail) - wanted).abs() < 1e-9);
+}
+
 /// What does not heed them says so.
 #[test]
 fn what_does_not_heed_them_refuses() {

@@ -288,6 +288,7 @@ where
             let (next, held, parameters) = (event.state, event.inputs, event.parameters);
             if let Some(parameters) = parameters {
                 self.dynamics.take_parameters(parameters)?;
+                self.dynamics.renew_limits()?;
                 *taken = Some(parameters);
             }
             if held != *inputs || parameters.is_some() {

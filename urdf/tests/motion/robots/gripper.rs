@@ -103,8 +103,8 @@ pub struct Gripper {
 }
 
 /// What the file says of its joints, in the order of the fields; of a slide m and N in the place of
-/// rad and N m. A run with `.limits()` holds joints within their positions; nothing holds rates and
-/// efforts.
+/// rad and N m. A run holds joints within their positions, unless it says `.without_limits()`;
+/// nothing holds rates and efforts.
 #[allow(dead_code, clippy::approx_constant)]
 impl Gripper {
     /// Names in the file.
