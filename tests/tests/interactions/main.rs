@@ -13,6 +13,7 @@ mod loops;
 mod shafts;
 mod steps;
 mod switched;
+mod turns;
 
 use holonom::prelude::*;
 
