@@ -377,7 +377,9 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     /// by more than four digits; smaller violations of the joints of the tree are taken away. There
     /// [`Fault::StateNotFinite`] where the two axes of a joint are in line.
     pub fn state_of(&self, bodies: &M::State<S>) -> Result<C::State<S>, Fault> {
-        let mut bodies = *bodies;
+        let given = bodies;
+        let mut bodies = *given;
+        turns::count::<S, M>(self.constants(), given, S::zero(), &mut bodies);
         M::rewrap(self.constants(), &mut bodies);
         check_state::<S, M>(&bodies)?;
         if C::IS_RELATIVE {

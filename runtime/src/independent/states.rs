@@ -315,7 +315,9 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// The state in which bodies stand and move so.
     #[must_use]
     pub fn of_bodies(&self, bodies: &M::State<S>) -> M::JointState<S> {
-        joint_state_of::<S, M>(&self.equations.constants, bodies)
+        let mut counted = *bodies;
+        turns::count::<S, M>(&self.constants, bodies, S::zero(), &mut counted);
+        joint_state_of::<S, M>(&self.equations.constants, &counted)
     }
 }
 

@@ -179,8 +179,8 @@ impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsFixedIntegration<S, Y::State>
             Ok(state) if state.is_finite() => state,
             outcome => return Err(self.refused(system, step, outcome.err())),
         };
-        system.follow(&self.reached.state, step, &mut state);
         system.renormalise(&mut state, None);
+        system.follow(&self.reached.state, step, &mut state);
         let [third, fourth] = &mut self.before;
         swap(third, fourth);
         swap(&mut self.last.first, third);

@@ -170,8 +170,8 @@ where
             let end = self.controller.end_of(time, size, stretched);
             let outcome = self.attempt(system, size, end);
             if let Ok(Trial::Accepted { mut state, error }) = outcome {
-                system.follow(&self.reached.state, end - time, &mut state);
                 system.renormalise(&mut state, Some(&mut self.reached.slope));
+                system.follow(&self.reached.state, end - time, &mut state);
                 self.is_prepared = false;
                 self.last.go(&mut self.reached, (end - time, end), state);
                 self.reached.estimate = Some(error);

@@ -273,8 +273,8 @@ impl<S: Real, X: Vector<S>> BdfIntegration<S, X> {
         } = trial;
         let order = self.order;
         let size = end - self.reached.time;
-        system.follow(&self.reached.state, size, &mut state);
         system.renormalise(&mut state, None);
+        system.follow(&self.reached.state, size, &mut state);
         self.reached.counts.accepted += 1;
         self.reached.estimate = Some(trial.error * self.controller.relative);
         self.age = Age::Former;

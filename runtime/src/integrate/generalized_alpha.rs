@@ -270,8 +270,8 @@ where
             auxiliary: &self.auxiliary,
         })?;
         reached.counts.evaluations += end.evaluations;
-        system.follow(&reached.state, step, &mut end.state);
         system.renormalise(&mut end.state, Some(&mut end.slope));
+        system.follow(&reached.state, step, &mut end.state);
         self.last.first = replace(&mut reached.slope, end.slope);
         self.auxiliary = end.auxiliary;
         self.last.go(reached, (step, time), end.state);

@@ -56,8 +56,8 @@ impl<S: Real, X: Vector<S>, K: Scheme<S>> StepWithin<S, X, K> {
         if !to.is_finite() {
             return Err(None);
         }
-        system.follow(from, step, &mut to);
         system.renormalise(&mut to, None);
+        system.follow(from, step, &mut to);
         let mut last = to.clone();
         system.stage(time + step, &to, &mut last)?;
         if !last.is_finite() {

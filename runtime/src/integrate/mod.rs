@@ -197,8 +197,8 @@ pub trait System<S: Scalar> {
         })
     }
 
-    /// Counts on in a state that a step (s) has led to from another one what states count beside
-    /// their elements, see [`Vector::turns`].
+    /// Counts on in a state in normal form that a step (s) has led to from another one what states
+    /// count beside their elements, see [`Vector::turns`].
     #[inline(always)]
     fn follow(&mut self, _from: &Self::State, _step: S, _to: &mut Self::State) {}
 
@@ -550,9 +550,9 @@ fn attempt<S: Real, K: OneStep<S, Y>, Y: System<S>>(
     if !next.is_finite() {
         return Err(None);
     }
+    system.renormalise(&mut next, None);
     system.follow(state, step, &mut next);
     *state = next;
-    system.renormalise(state, None);
     Ok(())
 }
 

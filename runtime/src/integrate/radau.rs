@@ -473,8 +473,8 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
         }
         self.next_step = step * factor.max(S::constant(0.2));
         let size = end - self.reached.time;
-        system.follow(&self.reached.state, size, &mut trial.state);
         system.renormalise(&mut trial.state, Some(&mut trial.slope));
+        system.follow(&self.reached.state, size, &mut trial.state);
         self.reached.counts.accepted += 1;
         self.reached.estimate = Some(trial.error * self.controller.relative);
         // Errors near zero say nothing of the next one.

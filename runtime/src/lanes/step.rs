@@ -15,6 +15,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::turns;
 use crate::nonsmooth::described::refuse_limits;
 use crate::run::stepper::end_of_step;
+use crate::state::vector::Vector as _;
 
 impl<T, M, F, K, C, const L: usize> Ensemble<T, M, F, K, C, L>
 where
@@ -67,8 +68,12 @@ where
     #[inline(never)]
     fn count(&mut self, before: &C::State<Lanes<T, L>>, dt: T) {
         for (lane, dynamics) in self.dynamics.iter().enumerate() {
-            let from: C::State<T> = state_of(before, lane);
             let mut to: C::State<T> = state_of(&self.state, lane);
+            let turned = to.turns().last().copied();
+            if turned.is_none_or(|turned| turned <= T::constant(turns::FAR)) {
+                continue;
+            }
+            let from: C::State<T> = state_of(before, lane);
             dynamics.count_turns(&from, dt, &mut to);
             put_state(&mut self.state, lane, &to);
         }

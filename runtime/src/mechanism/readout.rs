@@ -13,8 +13,9 @@ pub struct AngleParts<S> {
     pub sine: S,
     /// The rate of the angle (rad/s).
     pub rate: S,
-    /// For a joint whose definition counts turns: the auxiliary variable of the state (rad) that
-    /// the angle lies near.
+    /// For a joint whose definition counts turns, or beside which a joint or force between the same
+    /// bodies counts them about the same axis: the auxiliary variable of the state (rad) that the
+    /// angle lies near.
     pub turns: Option<S>,
 }
 

@@ -14,6 +14,7 @@ mod shafts;
 mod steps;
 mod switched;
 mod told;
+mod turns;
 
 use holonom::prelude::*;
 

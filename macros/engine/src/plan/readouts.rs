@@ -1,13 +1,14 @@
 //! What can be read of joints and forces at a state.
 
+use crate::model::joint::Turn;
 use crate::model::mechanism::Counter;
 use crate::model::{BodyKind, Model, ParameterKind};
-use crate::symbolic::arena::{Arena, Input};
+use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::equations::{Kernel, with_scene};
 use crate::symbolic::fixed::{point_on, triple};
 use crate::symbolic::motion::Gradient;
 use crate::symbolic::scene::Scene;
-use crate::symbolic::vector::{Frame, VectorId};
+use crate::symbolic::vector::{Frame, Triple, VectorId};
 
 /// Kernels of what can be read, by the place of joint or force.
 #[derive(Clone, Debug)]
@@ -79,11 +80,7 @@ fn angles(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
             let copies = scene.copies[place][angle.axis].clone();
             let copies = copies.expect("the axis of an angle has copies");
             let (i, j) = (joint.bodies[angle.from], joint.bodies[angle.to]);
-            let counter = Counter {
-                element: place,
-                turn: angle,
-            };
-            let counter = model.counters().iter().position(|known| *known == counter);
+            let counter = counter_of(scene, model, place, angle);
             let frame = |body: Option<usize>| body.map_or(Frame::Global, Frame::Body);
             let space = &mut scene.space;
             let [n1, n2] = copies.normals[angle.from].map(|n| space.native(frame(i), n));
@@ -102,15 +99,63 @@ fn angles(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
                 }
             }
             let mut outputs = vec![cosine, sine, rate];
-            outputs.extend(counter.map(|counter| {
+            outputs.extend(counter.map(|(counter, sign)| {
                 let place = scene.layout.coordinates + counter;
-                space.arena.input(Input::Coordinate(place as u32))
+                let counted = space.arena.input(Input::Coordinate(place as u32));
+                space.arena.mul(sign, counted)
             }));
             outputs
         });
         angles.push((place, kernel));
     }
     angles
+}
+
+/// The auxiliary variable that counts the angle of a joint, and its sign: its own, or that of
+/// another joint or force between the same bodies about the same axis, such as a spring on a hinge.
+fn counter_of(
+    scene: &mut Scene,
+    model: &Model,
+    joint: usize,
+    angle: Turn,
+) -> Option<(usize, Expr)> {
+    let counters = model.counters();
+    let own = Counter {
+        element: joint,
+        turn: angle,
+    };
+    if let Some(counter) = counters.iter().position(|known| *known == own) {
+        return Some((counter, Arena::ONE));
+    }
+    let sides = |element: usize, turn: Turn| {
+        let bodies = &model.elements().nth(element)?.bodies;
+        let copies = scene.copies[element][turn.axis].as_ref()?;
+        let side = |place: usize| (bodies[place], copies.vector[place]);
+        Some([side(turn.from), side(turn.to)])
+    };
+    let of_joint = sides(joint, angle)?;
+    let negated = |scene: &mut Scene, sides: [(Option<usize>, Triple); 2]| {
+        sides.map(|(body, axis)| {
+            let arena = &mut scene.space.arena;
+            (body, axis.map(|x| arena.mul(-Arena::ONE, x)))
+        })
+    };
+    let others: Vec<_> = { counters.iter() }
+        .map(|counter| sides(counter.element, counter.turn))
+        .collect();
+    others.into_iter().enumerate().find_map(|(place, other)| {
+        let [from, to] = other?;
+        // Against each other the other way round, or about the other axis, it is minus the angle.
+        let back = negated(scene, of_joint);
+        let sign = if [from, to] == of_joint || [to, from] == back {
+            Arena::ONE
+        } else if [to, from] == of_joint || [from, to] == back {
+            -Arena::ONE
+        } else {
+            return None;
+        };
+        Some((place, sign))
+    })
 }
 
 fn points(scene: &Scene, model: &Model) -> Vec<(usize, usize, Kernel)> {

@@ -236,8 +236,8 @@ impl<S: Real, Y: System<S>> Advance<S, Y> for AdamsIntegration<S, Y::State> {
             let end = self.controller.end_of(time, size, stretched);
             let outcome = self.attempt(system, size, end);
             if let Ok(Trial::Accepted { mut state, errors }) = outcome {
-                system.follow(&self.reached.state, end - time, &mut state);
                 system.renormalise(&mut state, Some(&mut self.reached.slope));
+                system.follow(&self.reached.state, end - time, &mut state);
                 self.reached.counts.accepted += 1;
                 self.reached.estimate = Some(errors.here);
                 self.reached.time = end;

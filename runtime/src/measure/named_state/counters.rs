@@ -83,6 +83,15 @@ impl<M: Mechanism, S: Real> Counters<M, S> {
             let to = places.of_mut(state);
             to.copy_from_slice(places.of(&self.0));
         }
+        // A joint of which a variable counts the angle has it in the account as well.
+        for (index, joint) in M::REPORT.joints.iter().enumerate() {
+            let counted = state.coordinates().as_slice().get(joint.auxiliary).copied();
+            let place = place_of::<M>(index).filter(|_| joint.auxiliaries == 1);
+            let account = place.and_then(|place| state.turns_mut().get_mut(place));
+            if let (Some(account), Some(counted)) = (account, counted) {
+                *account = counted;
+            }
+        }
         // They are of some time ago.
         if let Some(since) = state.turns_mut().last_mut() {
             *since = S::constant(FAR);
