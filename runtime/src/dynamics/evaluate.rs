@@ -246,6 +246,7 @@ where
     ) -> Result<Saddle<'s, S, M, C, F::Terms>, Fault> {
         let saddle = Saddle::<S, M, C, F::Terms> {
             constants: &self.equations.constants,
+            absolute: &self.absolute.constants,
             coefficients: &self.equations.coefficients,
             compliances: &self.equations.compliances,
             factors: first.factors,

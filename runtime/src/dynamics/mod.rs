@@ -564,8 +564,13 @@ where
         let constants = self.constants();
         let gamma = stabilised::<S, M, F::Terms>(constants, [rate, position], time, read);
         let accelerations = evaluation.rates.velocities();
-        let (row, size) =
-            inconsistency::<S, M>(constants, (time, read), accelerations, &forces, &gamma);
+        let (row, size) = inconsistency::<S, M>(
+            constants,
+            (time, read),
+            (accelerations, S::zero()),
+            &forces,
+            &gamma,
+        );
         (size, M::REPORT.joint_of(row))
     }
 

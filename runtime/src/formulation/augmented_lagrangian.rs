@@ -1,6 +1,7 @@
 //! The augmented Lagrangian formulation.
 
 use super::{Formulation, Saddle, Solution, faster_decay, inconsistency, penalty};
+use crate::constraints::rows::Rows;
 use crate::constraints::self_stress::{passing, self_stressed};
 use crate::error::setting::positive;
 use crate::error::{Fault, NotFinite};
@@ -35,9 +36,10 @@ use crate::state::vector::Array;
 /// end before their tolerance. Where the loads do not cancel, slow convergence is
 /// [`Fault::NotConverged`]: `alpha` is too small for the masses.
 ///
-/// In joint coordinates it iterates on the equations that remain, by the rates of their velocities,
-/// and goes on by conjugate gradients wherever `max_iterations` do not do; no evaluation is
-/// unconverged.
+/// In joint coordinates it iterates on the equations that remain, by the rates of their velocities.
+/// A change of the multipliers that loads the motions of the joints to a hundredth of what it loads
+/// free bodies is a state of self-stress there, and the iterate is taken. Else it goes on by
+/// conjugate gradients wherever `max_iterations` do not do.
 ///
 /// A mechanism that passes a singular configuration with a violation `Phi` moves as one of other
 /// lengths would, which need not be the way of the perfect one: it may leave that where `Phi`, in
@@ -202,7 +204,7 @@ impl<S: Real> AugmentedLagrangian<S> {
             }
         }
         // With the rows of all joints a state of self-stress can be told from masses that are too
-        // large; without them, conjugate gradients decide.
+        // large; of the rows that remain in joint coordinates, by what they load free bodies.
         let multipliers = difference_of(&next.multipliers, &last.multipliers);
         if let Some(rows) = saddle.by_all_rows(&next.accelerations, &multipliers) {
             let (worst, acceptance) = acceptance(saddle.time, &rows);
@@ -217,8 +219,50 @@ impl<S: Real> AugmentedLagrangian<S> {
                 }
                 Acceptance::Lasting => next.unconverged = true,
             }
+        } else if self.loads_no_motion(saddle, next, &multipliers) {
+            next.unconverged = true;
+            return Ok(());
         }
         self.by_conjugate_gradients(saddle, next, saddle.yielded(&multipliers))
+    }
+
+    /// Whether a change of the multipliers loads the motions that joints leave free to a hundredth
+    /// of what it loads free bodies, while the accelerations meet the equations: it is nearly a
+    /// state of self-stress. To iterate further would follow the violation at hand, which bends the
+    /// motion onto another branch.
+    #[cold]
+    #[inline(never)]
+    fn loads_no_motion<M: Mechanism, C: Coordinates<M>>(
+        &self,
+        saddle: &Saddle<'_, S, M, C, Compliant>,
+        solution: &Solution<S, M, C>,
+        change: &C::Multipliers<S>,
+    ) -> bool {
+        let mut further = *solution;
+        saddle.solve_again(&mut further);
+        let next = difference_of(&further.multipliers, &solution.multipliers);
+        let size = S::one() + square(further.accelerations.as_slice()).sqrt();
+        // With `D u' - gamma* = E z` before and `E z'` after it, `S z' = E (z - z')`.
+        let mut stiffness = S::zero();
+        let rows = next.as_slice().iter().zip(change.as_slice());
+        for ((&next, &change), &compliance) in rows.zip(saddle.compliances.as_slice()) {
+            stiffness = (next * compliance).fused(change - next, stiffness);
+            let unit = (compliance * self.alpha).sqrt();
+            if compliance * next.abs() > S::constant(ACCEPTED) * unit * size {
+                return false;
+            }
+        }
+        C::with_bodies(saddle.constants, saddle.state, |bodies| {
+            let rows = Rows::<S, M>::at(saddle.absolute, saddle.time, bodies);
+            let mut of_bodies = S::zero();
+            for (row, &next) in next.as_slice().iter().enumerate() {
+                let row = C::row_of_all(row);
+                if let Some(&own) = row.and_then(|row| rows.stiffness.as_slice().get(row)) {
+                    of_bodies = (own * next).fused(next, of_bodies);
+                }
+            }
+            stiffness <= S::constant(ACCEPTED * ACCEPTED) * of_bodies
+        })
     }
 
     #[cold]
@@ -305,8 +349,15 @@ fn acceptance<S: Real, M: Mechanism>(time: S, rows: &ByAllRows<'_, S, M>) -> (us
         accelerations,
         multipliers: change,
     } = *rows;
-    let (worst, missing) =
-        inconsistency::<S, M>(constants, (time, state), accelerations, upper, lower);
+    // A row whose own terms all but vanish, as across a motion in a plane, is met beside others.
+    let beside = S::constant(ACCEPTED) * square(accelerations.as_slice()).sqrt();
+    let (worst, missing) = inconsistency::<S, M>(
+        constants,
+        (time, state),
+        (accelerations, beside),
+        upper,
+        lower,
+    );
     let acceptance = if missing > S::constant(ACCEPTED)
         || !self_stressed::<S, M>(constants, time, state, change)
     {

@@ -6,11 +6,11 @@ use crate::state::vector::Array;
 
 /// The row whose accelerations are farthest from `D u' = gamma*`, and how far: relative to the sum
 /// of the sizes of its terms, `|D| |u'|`, `|D| M^-1 |g|` (what applied forces would do without
-/// constraints) and `|gamma*|`. Zero where all are met, about one where a constraint does nothing.
+/// constraints), `|D|` times accelerations that it is seen beside, and `|gamma*|`. Zero where all are met, about one where a constraint does nothing.
 pub(crate) fn inconsistency<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     (time, state): (S, &M::State<S>),
-    accelerations: &M::Velocities<S>,
+    (accelerations, beside): (&M::Velocities<S>, S),
     forces: &M::Velocities<S>,
     gamma: &M::Multipliers<S>,
 ) -> (usize, S) {
@@ -30,7 +30,7 @@ pub(crate) fn inconsistency<S: Real, M: Mechanism>(
             let moved = moved.zip(mass.as_slice()).skip(block.column);
             for (&value, ((&acceleration, &force), &mass)) in row.iter().zip(moved) {
                 *missing = *missing - value * acceleration;
-                let size = acceleration.abs() + force.abs().quotient(mass);
+                let size = acceleration.abs() + force.abs().quotient(mass) + beside;
                 *terms = value.abs().fused(size, *terms);
             }
         }

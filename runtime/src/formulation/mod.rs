@@ -109,6 +109,8 @@ pub trait Formulation<S: Real>: Copy + Debug {
 /// The saddle system at one time and state, factorised.
 pub struct Saddle<'a, S: Scalar, M: Mechanism, C: Coordinates<M>, T: Terms> {
     pub(crate) constants: &'a C::Constants<S>,
+    /// In absolute coordinates.
+    pub(crate) absolute: &'a M::Constants<S>,
     pub(crate) coefficients: &'a C::Coefficients<S>,
     pub(crate) compliances: &'a C::Multipliers<S>,
     pub(crate) factors: &'a C::Factors<S>,

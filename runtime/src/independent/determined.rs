@@ -46,8 +46,8 @@ pub(super) enum Needs {
 
 /// The part of a rate, an acceleration or a derivative that may be lost: five of eight digits stay.
 fn bound<S: Real>() -> f64 {
-    let root = S::EPSILON.to_f64().sqrt().sqrt();
-    root * root.sqrt()
+    let root = S::EPSILON.sqrt().sqrt();
+    (root * root.sqrt()).to_f64()
 }
 
 impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {

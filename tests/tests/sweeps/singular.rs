@@ -298,6 +298,64 @@ sweeps! {
     augmented_lagrangian: AugmentedLagrangian::default();
 }
 
+/// Goes straight on at every tolerance, in both coordinates, and says so.
+fn goes_straight_on<M: JointCoordinates>(
+    model: &M,
+    mark: &Mark<M>,
+    method: AugmentedLagrangian<f64>,
+) {
+    for exponent in (5..=11).step_by(if IS_EXHAUSTIVE { 1 } else { 2 }) {
+        let relative = 10.0_f64.powi(-exponent);
+        let absolute = 1e-2 * relative;
+        let tolerance = Tolerance { relative, absolute };
+        for by_joints in [false, true] {
+            let integrator = DormandPrince853::new(tolerance).budget(BUDGET);
+            let run = Simulation::new(model, method, integrator).projection(Projection::default());
+            let mut error = f64::NAN;
+            let observe = |sample: &Sample<'_, f64, M>| {
+                error = (sample.point(mark.body, mark.point) - mark.place).norm();
+                ControlFlow::Continue(())
+            };
+            let (duration, reports) = (mark.duration, every(mark.duration));
+            let warnings = if by_joints {
+                let run = run.joint_coordinates();
+                run.run(0.0..=duration, reports, observe)
+                    .map(|report| report.warnings())
+            } else {
+                let run = run.absolute_coordinates();
+                run.run(0.0..=duration, reports, observe)
+                    .map(|report| report.warnings())
+            };
+            let what = format!("{}, {relative:e}, by joints: {by_joints}", M::REPORT.name);
+            let warnings = match warnings {
+                Ok(warnings) => warnings,
+                Err(error) => panic!("{what}: {}", error.fault),
+            };
+            println!("{what}: off by {error:.1e} m");
+            assert!(error < 1e3 * relative, "{what}: off by {error:.1e} m");
+            let told = |warning| matches!(warning, Warning::NearlySingular { .. });
+            assert!(warnings.into_iter().any(told), "{what}: {warnings}");
+        }
+    }
+}
+
+#[test]
+fn the_augmented_lagrangian_goes_straight_on() -> Result<(), Fault> {
+    let (bar, crank, links) = (
+        FourBar::default(),
+        EqualLinks::default(),
+        Rhombus::default(),
+    );
+    let of_crank = equal_links(EqualLinks::HANDLES.crank);
+    for method in [None, Some(AugmentedLagrangian::default())] {
+        let of = |own: Result<AugmentedLagrangian<f64>, Fault>| method.map_or(own, Ok);
+        goes_straight_on(&bar, &four_bar(), of(AugmentedLagrangian::of(&bar))?);
+        goes_straight_on(&crank, &of_crank, of(AugmentedLagrangian::of(&crank))?);
+        goes_straight_on(&links, &rhombus(), of(AugmentedLagrangian::of(&links))?);
+    }
+    Ok(())
+}
+
 /// A factor that leaves next to no compliance in a singular configuration, with a tolerance of the
 /// formulation and of the integrator.
 fn extreme(tolerance: f64, relative: f64) {
