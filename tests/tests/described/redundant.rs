@@ -433,3 +433,95 @@ fn of_a_locked_loop_nothing_else_is_left_out() {
         .expect("nothing stops it");
     assert!(worst < 1e-9, "{worst:e}");
 }
+
+/// A four-bar in the plane y = 0 of a base that turns about z, with hinges only.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", redundant = "drop")]
+struct Slewing {
+    #[body(mass = 3.0, inertia = [0.2, 0.3, 0.25], orientation = rotation([0.0, 0.0, 1.0], 0.4))]
+    base: Body,
+    #[body(mass = 0.5, inertia = [0.003, 0.003, 0.001], position = [0.0, 0.0, 0.15])]
+    crank: Body,
+    #[body(mass = 0.8, inertia = [0.002, 0.02, 0.02], position = [0.25, 0.0, 0.35])]
+    rod: Body,
+    #[body(mass = 0.6, inertia = [0.005, 0.005, 0.001], position = [0.5, 0.0, 0.2])]
+    rocker: Body,
+    #[joint(between = [ground, base], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    slew: Revolute,
+    #[joint(between = [base, crank], point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
+    a: Revolute,
+    #[joint(between = [crank, rod], point = [0.0, 0.0, 0.3], axis = [0.0, 1.0, 0.0])]
+    b: Revolute,
+    #[joint(between = [rod, rocker], point = [0.5, 0.0, 0.4], axis = [0.0, 1.0, 0.0])]
+    c: Revolute,
+    #[joint(between = [base, rocker], point = [0.5, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
+    d: Revolute,
+}
+
+/// Energy and momentum about the axis of the base, by hand, and how far the loop is open.
+fn kept_of_slewing(sample: &Sample<'_, f64, Slewing>) -> ([f64; 2], f64) {
+    let h = Slewing::HANDLES;
+    let bodies = [
+        (h.base, 3.0, [0.2, 0.3, 0.25]),
+        (h.crank, 0.5, [0.003, 0.003, 0.001]),
+        (h.rod, 0.8, [0.002, 0.02, 0.02]),
+        (h.rocker, 0.6, [0.005, 0.005, 0.001]),
+    ];
+    let (mut energy, mut momentum) = (0.0, 0.0);
+    for (body, mass, inertia) in bodies {
+        let pose = sample.pose(body);
+        let velocity = sample.velocity(body);
+        let spin = sample.angular_velocity(body);
+        let own = Vector3::from(inertia).component_mul(&spin);
+        energy += 0.5 * (mass * velocity.norm_squared() + spin.dot(&own));
+        energy += mass * 9.81 * pose.position.z;
+        let turned = UnitQuaternion::new_unchecked(pose.orientation) * own;
+        momentum += mass * pose.position.cross(&velocity).z + turned.z;
+    }
+    let ends = [
+        sample.point(h.rod, Vector3::new(0.25, 0.0, 0.05)),
+        sample.point(h.rocker, Vector3::new(0.0, 0.0, 0.2)),
+    ];
+    ([energy, momentum], (ends[0] - ends[1]).norm())
+}
+
+/// Two freedoms, and two numbers that are kept: they determine the motion.
+#[test]
+fn a_loop_whose_plane_turns_stays_closed() {
+    let (slewing, handles) = (Slewing::default(), Slewing::HANDLES);
+    let mut start = slewing.described_state::<f64>().expect("described");
+    slewing
+        .set_angle_rate(&mut start, handles.slew, 2.0)
+        .expect("free");
+    let mut ends = Vec::new();
+    let mut first = None;
+    let mut see = |sample: &Sample<'_, f64, Slewing>| {
+        let ([energy, momentum], open) = kept_of_slewing(sample);
+        let [e, m] = *first.get_or_insert([energy, momentum]);
+        assert!((energy - e).abs() < 1e-8, "{energy} for {e}");
+        assert!((momentum - m).abs() < 1e-8, "{momentum} for {m}");
+        assert!(open < 1e-9, "{open}");
+        if sample.time() == 4.0 {
+            ends.push([sample.angle_rate(handles.slew), sample.angle(handles.a)]);
+        }
+    };
+    let simulation = || {
+        Simulation::new(&slewing, StandardLagrange, tight())
+            .initial_state(start)
+            .projection(Projection::default())
+    };
+    let joints = simulation().joint_coordinates();
+    let joints = joints
+        .run(0.0..=4.0, every(0.25), &mut see)
+        .expect("regular");
+    let bodies = simulation().absolute_coordinates();
+    let bodies = bodies
+        .run(0.0..=4.0, every(0.25), &mut see)
+        .expect("regular");
+    assert_eq!(joints.warnings().to_string(), "no warnings");
+    assert_eq!(bodies.warnings().to_string(), "no warnings");
+    let [[rate, angle], [same_rate, same_angle]] = ends[..] else {
+        panic!("{ends:?}")
+    };
+    assert!((rate - same_rate).abs() < 1e-8 && (angle - same_angle).abs() < 1e-8);
+}

@@ -50,7 +50,7 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
         let way = way
             .iter()
             .filter_map(|at| constraints.directions(at, TOLERANCE));
-        let (_, sweep) = sweep::both_ways(&constraints, &start, None, way.collect(), &mut random);
+        let sweep = sweep::both_ways(&constraints, &start, None, &mut random).with(way.collect());
         let sweep: Vec<Rows> = sweep.iter().map(stands_out).collect();
         kept = choice::steady(kept, &sweep, TOLERANCE);
     }

@@ -213,13 +213,11 @@ fn judged(model: &Model) -> Judged {
         at_start,
         first_regular,
         last_regular,
-        mut kept,
+        kept,
     } = found;
     let mut against = Vec::new();
-    let mut by_chance = Vec::new();
-    let mut stops = Vec::new();
     let mut components = Vec::new();
-    let mut steadiness = f64::INFINITY;
+    let choice;
     if rank < model.layout().rows {
         if constraints.is_driven() {
             against = contradiction::by_speed(&constraints, &configurations, &directions, &kept);
@@ -246,18 +244,12 @@ fn judged(model: &Model) -> Judged {
         }
         let regular = (&directions[..], rank);
         components = components::components(model, &constraints, &configurations, regular);
-        let sweep;
-        (stops, sweep) = sweep::both_ways(&constraints, &start, Some(&kept), way, &mut random);
-        kept = choice::steady(kept, &sweep, TOLERANCE);
-        steadiness = choice::steadiness(&kept, &sweep, TOLERANCE);
-        by_chance = contradiction::by_chance(
-            &constraints,
-            &start,
-            &kept,
-            &configurations[first_regular],
-            &mut random,
-        );
+        let from = &configurations[first_regular];
+        choice = Choice::of(&constraints, [&start, from], kept, way, &mut random);
+    } else {
+        choice = Choice::none(kept);
     }
+    let kept = choice.kept;
     let layout = model.layout();
     let is_alone = configurations.len() == 1 && rank < layout.rows.min(layout.velocities);
     let dormant = dormant(&constraints, &directions).into_iter();
@@ -268,21 +260,64 @@ fn judged(model: &Model) -> Judged {
         undetermined: undetermined(model, &kept, regular),
         redundant,
         dormant: dormant.map(|row| layout.place_of(row)).collect(),
-        by_chance: by_chance
+        by_chance: choice
+            .by_chance
             .into_iter()
             .map(|row| layout.place_of(row))
             .collect(),
         is_alone,
         is_driven: constraints.is_driven(),
         likes: constraints.values.clone(),
-        sweep: stops,
+        sweep: choice.stops,
         components: given_components(model),
         ..not(Rank::Decided { rank, at_start })
     };
     Judged {
         independence,
         components,
-        steadiness,
+        steadiness: choice.steadiness,
+    }
+}
+
+/// Rows that are kept, and how they do on the way of the mechanism.
+struct Choice {
+    kept: Vec<usize>,
+    steadiness: f64,
+    /// See [`Independence::sweep`].
+    stops: Vec<(f64, Vec<f64>)>,
+    by_chance: Vec<usize>,
+}
+
+impl Choice {
+    /// All rows.
+    fn none(kept: Vec<usize>) -> Self {
+        Self {
+            kept,
+            steadiness: f64::INFINITY,
+            stops: Vec::new(),
+            by_chance: Vec::new(),
+        }
+    }
+
+    /// The steadiest rows, from some that are independent at a configuration, with the rows of `D`
+    /// where time led to.
+    fn of(
+        constraints: &Constraints,
+        [start, from]: [&Configuration; 2],
+        kept: Vec<usize>,
+        way: Vec<Rows>,
+        random: &mut Random,
+    ) -> Self {
+        let ways = sweep::both_ways(constraints, start, Some(&kept), random);
+        let sweep = ways.with(way);
+        let kept = choice::steady(kept, &sweep, TOLERANCE);
+        let steadiness = choice::steadiness(&kept, &sweep, TOLERANCE);
+        Self {
+            by_chance: contradiction::by_chance(constraints, start, &kept, from, random),
+            kept,
+            steadiness,
+            stops: ways.into_first(),
+        }
     }
 }
 

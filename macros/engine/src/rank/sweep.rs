@@ -13,16 +13,41 @@ const STOPS: usize = 60;
 /// mechanism.
 const STEP: f64 = 0.3;
 
-/// Times and coordinates along a motion that the constraints leave free, and the rows of `D` on one
-/// way: back along this motion to the start, on along another motion, back, and along a way that
-/// begins there, too.
+/// Motions that the constraints leave free, both from the start on, with the rows of `D`.
+pub(super) struct Ways {
+    first: Vec<(Configuration, Rows)>,
+    other: Vec<(Configuration, Rows)>,
+}
+
+impl Ways {
+    /// All rows on one way: back along the first motion to the start, on along the other one, back,
+    /// and along a way that begins there, too.
+    pub(super) fn with(&self, way: Vec<Rows>) -> Vec<Rows> {
+        let rows = |(_, rows): &(Configuration, Rows)| rows.clone();
+        let mut all: Vec<Rows> = self.first.iter().rev().map(rows).collect();
+        all.extend(self.other.iter().skip(1).map(rows));
+        if !way.is_empty() {
+            all.extend(self.other.iter().rev().map(rows));
+            all.extend(way);
+        }
+        all
+    }
+
+    /// Times and coordinates on the first motion.
+    pub(super) fn into_first(self) -> Vec<(f64, Vec<f64>)> {
+        let first = self.first.into_iter();
+        first.map(|(at, _)| (at.time, at.coordinates)).collect()
+    }
+}
+
+/// Two motions straight on, as far as the constraints let them; they may be one that leads forwards
+/// and backwards.
 pub(super) fn both_ways(
     constraints: &Constraints,
     start: &Configuration,
     independent: Option<&[usize]>,
-    way: Vec<Rows>,
     random: &mut Random,
-) -> (Vec<(f64, Vec<f64>)>, Vec<Rows>) {
+) -> Ways {
     let mut headings = [0; 2].map(|_| random.motion(constraints.velocities()));
     if let Some(here) = constraints.directions(start, TOLERANCE) {
         let few: Option<Rows> =
@@ -33,23 +58,13 @@ pub(super) fn both_ways(
             .for_each(|heading| span.remove_from(heading));
     }
     let [heading, mut other] = headings;
-    // What moves in one way only moves forwards and backwards.
     if dot(&heading, &other) > 0.0 {
         other.iter_mut().for_each(|x| *x = -*x);
     }
-    let (stops, mut all): (Vec<_>, Vec<Rows>) = stops(constraints, start, heading, independent)
-        .into_iter()
-        .map(|(at, rows)| ((at.time, at.coordinates), rows))
-        .unzip();
-    all.reverse();
-    let other = self::stops(constraints, start, other, independent).into_iter();
-    let other: Vec<Rows> = other.skip(1).map(|(_, rows)| rows).collect();
-    all.extend(other.iter().cloned());
-    if !way.is_empty() {
-        all.extend(other.into_iter().rev());
-        all.extend(way);
+    Ways {
+        first: stops(constraints, start, heading, independent),
+        other: stops(constraints, start, other, independent),
     }
-    (stops, all)
 }
 
 /// Configurations along a motion that the constraints leave free, straight on as far as they let

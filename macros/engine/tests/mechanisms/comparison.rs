@@ -2,6 +2,7 @@
 //! same equations.
 
 use holonom_engine::coordinates::candidates::Strategy;
+use holonom_engine::coordinates::system::Reduced;
 use holonom_engine::model::Model;
 use holonom_engine::plan::candidates::Plans;
 use holonom_engine::plan::candidates::all;
@@ -42,6 +43,8 @@ pub(crate) struct Comparison<'a> {
     /// Of all rows of the definitions.
     pub(crate) dropped: Vec<bool>,
     pub(crate) statistics: Statistics,
+    /// In joint coordinates, as far as they were asked for.
+    pub(crate) in_joints: Vec<(Strategy, Reduced)>,
 }
 
 /// The largest difference; not a number is a difference.
@@ -119,6 +122,7 @@ impl<'a> Comparison<'a> {
             others,
             dropped,
             statistics,
+            in_joints: Vec::new(),
         }
     }
 

@@ -155,7 +155,14 @@ impl Comparison<'_> {
         terms: Terms,
     ) -> Result<(), String> {
         let model = self.model;
-        let mut reduced = Reduced::of(model, strategy);
+        let mut known = self.in_joints.iter();
+        let known = known.position(|(known, _)| *known == strategy);
+        let known = known.unwrap_or_else(|| {
+            self.in_joints
+                .push((strategy, Reduced::of(model, strategy)));
+            self.in_joints.len() - 1
+        });
+        let mut reduced = self.in_joints[known].1.clone();
         let Some(equations) = self.equations(state) else {
             return Ok(());
         };
