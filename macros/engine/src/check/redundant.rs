@@ -42,7 +42,6 @@ pub(super) fn check(
             );
         }
         Redundant::Drop if !model.independence.by_chance.is_empty() => by_chance(model, faults),
-        Redundant::Drop if model.independence.is_lost => faults.at(expr, lost(model)),
         Redundant::Refuse => refuse(model, faults),
         Redundant::Keep => {}
         Redundant::Drop => {
@@ -165,18 +164,6 @@ fn contradictions(model: &Model, faults: &mut Faults) {
             ),
         );
     }
-}
-
-/// Why no choice of equations will do, and what to do.
-fn lost(model: &Model) -> String {
-    let redundant = model.independence.redundant.iter();
-    let names = redundant.map(|row| format!("{}[{}]", model.joints[row.joint].name, row.row));
-    format!(
-        "no choice of equations that can be left out is sound all along the motion: without {}, those that are kept depend on each other where the \
-         mechanism gets to, and let it go where the others do not; choose joints without redundant equations, such as a ball and a sleeve in the \
-         places of two hinges of a planar loop, or write `redundant = \"keep\"` for formulations with a compliance (penalty, augmented Lagrangian)",
-        list(names)
-    )
 }
 
 /// Why equations that follow from others cannot be found, and what to do.

@@ -90,9 +90,6 @@ pub struct Independence {
     /// Whether no other configuration was found near the reference one, although the rank leaves
     /// motion free: there rows may depend on each other by chance.
     pub is_alone: bool,
-    /// Whether the equations that are not redundant depend on each other somewhere on the way of the
-    /// mechanism, where all equations together say more: no choice is sound everywhere.
-    pub is_lost: bool,
     /// Whether the time stands in an equation.
     pub is_driven: bool,
     /// The places, in order, of the run-time values that the constraints depend on, where all this

@@ -69,7 +69,6 @@ mod dense;
 mod displacement;
 mod geometry;
 mod limits;
-mod lost;
 mod motion;
 pub mod moves;
 mod normal;
@@ -267,7 +266,6 @@ fn judged(model: &Model) -> Judged {
             .map(|row| layout.place_of(row))
             .collect(),
         is_alone,
-        is_lost: choice.is_lost,
         is_driven: constraints.is_driven(),
         likes: constraints.values.clone(),
         sweep: choice.stops,
@@ -285,8 +283,6 @@ fn judged(model: &Model) -> Judged {
 struct Choice {
     kept: Vec<usize>,
     steadiness: f64,
-    /// See [`Independence::is_lost`].
-    is_lost: bool,
     /// See [`Independence::sweep`].
     stops: Vec<(f64, Vec<f64>)>,
     by_chance: Vec<usize>,
@@ -298,7 +294,6 @@ impl Choice {
         Self {
             kept,
             steadiness: f64::INFINITY,
-            is_lost: false,
             stops: Vec::new(),
             by_chance: Vec::new(),
         }
@@ -317,13 +312,10 @@ impl Choice {
         let sweep = ways.with(way);
         let kept = choice::steady(kept, &sweep, TOLERANCE);
         let steadiness = choice::steadiness(&kept, &sweep, TOLERANCE);
-        let is_lost =
-            steadiness <= TOLERANCE && lost::is_lost(constraints, &ways.configurations(), &kept);
         Self {
             by_chance: contradiction::by_chance(constraints, start, &kept, from, random),
             kept,
             steadiness,
-            is_lost,
             stops: ways.into_first(),
         }
     }

@@ -417,11 +417,6 @@ impl Constraints {
         moved
     }
 
-    /// The number of bodies.
-    pub(super) fn bodies(&self) -> usize {
-        self.kinds.len()
-    }
-
     /// Whether a body has an orientation.
     pub(super) fn kind(&self, body: usize) -> BodyKind {
         self.kinds[body]

@@ -33,13 +33,6 @@ impl Ways {
         all
     }
 
-    /// The configurations on that way, as far as nothing drives them.
-    pub(super) fn configurations(&self) -> Vec<Configuration> {
-        let first = self.first.iter().rev();
-        let all = first.chain(self.other.iter().skip(1));
-        all.map(|(at, _)| at.clone()).collect()
-    }
-
     /// Times and coordinates on the first motion.
     pub(super) fn into_first(self) -> Vec<(f64, Vec<f64>)> {
         let first = self.first.into_iter();
