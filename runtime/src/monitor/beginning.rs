@@ -50,7 +50,7 @@ pub(super) fn shaken<S: Real, M: Mechanism>(state: &M::State<S>, length: S) -> M
 
 impl<S: Real, M: Mechanism> Beginning<'_, S, M> {
     /// What the last digit of the coordinates changes of the accelerations (m/s^2, angles by the
-    /// length of the mechanism).
+    /// length of the mechanism), and that of the forces that may meet in the lightest body.
     pub(super) fn noise(&self, length: S) -> S {
         let [here, there] = self.accelerations;
         let mut noise = M::Velocities::<S>::zeros();
@@ -58,7 +58,23 @@ impl<S: Real, M: Mechanism> Beginning<'_, S, M> {
         for (x, (&a, &b)) in noise.as_mut_slice().iter_mut().zip(pairs) {
             *x = b - a;
         }
-        largest::<S, M>(&noise, length)
+        largest::<S, M>(&noise, length).max(S::EPSILON * self.of_the_lightest())
+    }
+
+    /// The acceleration (m/s^2) of the lightest body by all forces: reactions that carry them may
+    /// cancel there.
+    fn of_the_lightest(&self) -> S {
+        let bodies = M::REPORT.bodies.iter();
+        let loads = bodies.map(|body| {
+            let [mass]: [S; 1] = read(self.mass.as_slice(), body.velocity);
+            let force = square(&read::<S, 3>(self.forces.as_slice(), body.velocity)).sqrt();
+            (mass, force)
+        });
+        let lighter = |(least, sum): (S, S), (mass, force): (S, S)| (least.min(mass), sum + force);
+        match loads.reduce(lighter) {
+            Some((least, sum)) if least > S::zero() => sum.quotient(least),
+            _ => S::zero(),
+        }
     }
 
     /// The largest acceleration without constraints (m/s^2).

@@ -182,6 +182,10 @@ impl<S: Real, M: Mechanism> Energy<S, M> {
     /// kinetic energy: all that it exchanges says little of it. What a place is off by goes with
     /// the speed there.
     fn shift_of_orbits(&self, run: &RunFacts<S>) -> S {
+        // What trembles turns about itself.
+        if run.rests {
+            return S::zero();
+        }
         let mean = self.balance.mean();
         let late = S::constant(PERIOD) * mean.change * run.round;
         (late * mean.peak.sqrt()).quotient(run.lives)

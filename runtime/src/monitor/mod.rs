@@ -20,7 +20,7 @@
 //! | derivatives | `growth.rs` | every step that carries some |
 //! | the user's states | `states.rs` | every step, where there are some |
 //!
-//! Four values judge nothing, and tell the others what counts: how far the mechanism has moved
+//! Four values judge nothing. They tell the others what counts: how far the mechanism has moved
 //! (`travel.rs`), how far it went round (`turning.rs`), how long the motion remembers its errors
 //! (`memory.rs`), and whether it is at rest (`rest.rs`).
 //!

@@ -116,8 +116,8 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         steps % EVERY == 1
     }
 
-    /// What a step has missed of the coordinates (m, rad) and of the velocities (m/s, rad/s), beside
-    /// a rule of higher order.
+    /// What a step has missed of the coordinates (m, rad) and of the velocities (m/s, rad/s),
+    /// beside a rule of higher order.
     pub(super) fn missed_by([end, better]: [&M::State<S>; 2]) -> [M::Velocities<S>; 2] {
         let mut missed = M::Velocities::<S>::zeros();
         let mut slower = *end.velocities();
@@ -188,8 +188,8 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         }
     }
 
-    /// The energy (J) that all steps together gave to the motion, as the single ones tell: what
-    /// they gained beside a rule of higher order, of kinetic energy and against the forces.
+    /// The energy (J) that all steps together gave to the motion. It is what single ones gained
+    /// beside a rule of higher order, of kinetic energy and against the forces.
     pub(super) fn energy(&self) -> S {
         self.energy
     }

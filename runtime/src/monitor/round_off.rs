@@ -63,7 +63,8 @@ impl<S: Real> RoundOff<S> {
     }
 
     /// Round-off of velocities changes the energy like a random walk, whose end tells little of its
-    /// way. Only where next to nothing works on the mechanism: forces and drivers set a phase of their own.
+    /// way. Only where next to nothing works on the mechanism: forces and drivers set a
+    /// phase of their own.
     pub(super) fn long_run(&self, run: &RunFacts<S>) -> Option<Warning> {
         if !run.is_closed {
             return None;

@@ -1,7 +1,7 @@
 //! Whether steps, or the tolerance, suit the states of the user's own, which no energy tells of.
 //!
 //! It costs their rates a step, and eight times more in every second one, at fixed steps; without
-//! such states nothing. Only it finds a filter, a clock or an oscillator of states that steps make grow:
+//! such states nothing. Only it finds a filter or an oscillator of states that steps make grow:
 //! `tests/tests/sound/states.rs`.
 //!
 //! Every second step is compared with Simpson's rule through the rates at three ends. What it

@@ -107,8 +107,9 @@ impl<S: Real, M: Mechanism> Verification<S, M> {
         self.of(body.index())
     }
 
-    /// The body with the largest estimated error, a radian counted as a metre. `None` for a
-    /// mechanism without bodies, and where the companion ended before the run: then
+    /// The body with the largest estimated error, a radian counted as a metre.
+    ///
+    /// `None` for a mechanism without bodies, and where the companion ended before the run.
     /// [`ended`](Self::ended) says when and why, and [`body`](Self::body) has the errors until
     /// then.
     #[must_use]

@@ -11,7 +11,6 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::orientations::with_unit_orientations;
 use crate::monitor::{Monitor, fastest};
 use crate::run::companion::Companion;
 use crate::run::deferred::Deferred;
@@ -23,7 +22,7 @@ use crate::run::past::Past;
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::RunReport;
 use crate::run::sample::Sample;
-use crate::run::within::{better_end, look_within};
+use crate::run::within::{better_end, judge, look_within};
 
 /// A run under way.
 pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> {
@@ -444,11 +443,7 @@ where
             integration.replace(held);
         }
         if let (Some(monitor), Some(better)) = (&mut self.monitor, better) {
-            let forces = self
-                .dynamics
-                .all_forces(time, &with_unit_orientations::<S, M>(&state));
-            let constants = self.dynamics.constants();
-            monitor.judge((constants, time), [&state, &better], &forces);
+            judge(monitor, &self.dynamics, (time, &state), &better);
         }
         let estimate = integration.estimate();
         self.accept((time, integration.state()), state, estimate, last_good)

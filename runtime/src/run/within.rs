@@ -50,6 +50,23 @@ where
     better.map(|state| dynamics.bodies_near(&state, near))
 }
 
+/// Shows the monitor where a step has led to, and where a rule of higher order would have led.
+pub(crate) fn judge<S, M, F, A, C>(
+    monitor: &mut Monitor<S, M>,
+    dynamics: &Dynamics<S, M, F, A, C>,
+    (time, state): (S, &M::State<S>),
+    better: &M::State<S>,
+) where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    let forces = dynamics.all_forces(time, &with_unit_orientations::<S, M>(state));
+    monitor.judge((dynamics.constants(), time), [state, better], &forces);
+}
+
 /// Looks into the last step of an integration, or into what comes before an event within it, before
 /// its end is corrected or shown to the monitor: as far as pivots at the ends of its parts do not
 /// tell that the mechanism kept away from where one vanishes. The bodies stood near by a moment
