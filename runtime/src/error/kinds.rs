@@ -541,6 +541,14 @@ pub enum Fault {
         /// When (s).
         time: f64,
     },
+    /// A law switches in a state, and its sides differ there: it has no derivative, and where it
+    /// jumps an equilibrium would be one of a range.
+    OnSwitch {
+        /// The field of the force or state.
+        law: &'static str,
+        /// The expression whose sign decides.
+        expression: &'static str,
+    },
     /// Derivatives of a run were asked for, and a law switches: they jump where it does, which no
     /// run of derivatives takes into account.
     SwitchLeftOut {

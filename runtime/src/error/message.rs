@@ -240,9 +240,10 @@ impl fmt::Display for Fault {
                 "a run with events, controllers, checkpoints, laws that switch, limits or other interactions has no companion that `verified()` could compare it with; compare with a second run of \
                  another tolerance or step"
             ),
-            Self::SlidingLaw { .. } | Self::SwitchUndecided { .. } | Self::SwitchLeftOut { .. } => {
-                switches::say(self, f)
-            }
+            Self::SlidingLaw { .. }
+            | Self::OnSwitch { .. }
+            | Self::SwitchUndecided { .. }
+            | Self::SwitchLeftOut { .. } => switches::say(self, f),
             Self::Unstable { step } => write!(
                 f,
                 "the numbers grew without bound: a step of {} s is too long for the spin, the springs or the dampers here, unless a force grows \

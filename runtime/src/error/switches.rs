@@ -27,6 +27,11 @@ pub(super) fn say(fault: &Fault, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             "`{expression}` in the law of `{law}` is not a number at {} s, or changes its sign there more often than can be followed: use a smaller step, or a method that controls its steps",
             Given(time)
         ),
+        Fault::OnSwitch { law, expression } => write!(
+            f,
+            "`{expression}` in the law of `{law}` is zero in this state, and the law is another one on each side: there is no derivative, and what sticks has \
+             a range of equilibria; take a state beside it (a rate that is not zero), or a law by `smooth_step`"
+        ),
         Fault::SwitchLeftOut { law } => write!(
             f,
             "the law of `{law}` switches: derivatives of a run jump there, which this run would leave out; take differences of runs, or a law by `smooth_step`"

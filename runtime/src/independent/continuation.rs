@@ -203,7 +203,10 @@ where
             let linear = self.linearise(start, [], |_| [])?;
             self.steady(start, &linear.by_positions, &rates)?;
         }
-        let mut here = walk.start(&set, start)?;
+        let mut here = walk.start(&set, start).or_else(|fault| {
+            // The cause, where a law jumps.
+            self.off_jumps(start).and(Err(fault))
+        })?;
         let slopes = &here.linear.by_positions;
         here.set.0.steady(&here.state, slopes, &here.set.1)?;
         if here.tangent.value * (end - begin) < S::zero() {

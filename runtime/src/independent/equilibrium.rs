@@ -57,9 +57,11 @@ where
     /// # Errors
     /// [`Fault::NotSteady`] for a rate of a coordinate on which something depends;
     /// [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2);
-    /// [`Fault::BeyondLimit`] of one that lies beyond a limit of the description, unless the space is
-    /// [`without_limits`](IndependentCoordinates::without_limits), for a stop is no force here; what
-    /// [`IndependentCoordinates::linearise`] refuses.
+    /// [`Fault::OnSwitch`] where a law jumps in the state that was found, as dry friction that
+    /// holds it does: it is one of many; [`Fault::BeyondLimit`] of one that lies beyond a limit of
+    /// the description, unless the space is
+    /// [`without_limits`](IndependentCoordinates::without_limits), for a stop is no force here;
+    /// what [`IndependentCoordinates::linearise`] refuses.
     pub fn equilibrium(&self, guess: &M::JointState<S>) -> Result<M::JointState<S>, Fault> {
         let rates = self.rates(guess);
         let scales = self.scales();
@@ -68,7 +70,7 @@ where
         let mut falls = 0;
         let mut left = self.accelerations(&state)?;
         for taken in 0..STEPS {
-            let linear = self.linearise(&state, [], |_| [])?;
+            let linear = self.linearise_by(&state, &[])?;
             let slopes = linear.by_positions;
             let (way, unexplained) = newton(&slopes, &left, &scales);
             let widest = longest(&way, &scales);
@@ -82,6 +84,7 @@ where
                 if let Ok(next) = self.displaced(&state, &way, &rates) {
                     state = next;
                 }
+                self.off_jumps(&state)?;
                 let found = self.steady(&state, &slopes, &rates)?;
                 return self.within_limits(found);
             }

@@ -94,7 +94,9 @@ where
     /// ```
     ///
     /// # Errors
-    /// As [`IndependentCoordinates::mass`]; [`Fault::RatesNotFinite`] where there is no derivative.
+    /// As [`IndependentCoordinates::mass`]; [`Fault::RatesNotFinite`] where there is no derivative;
+    /// [`Fault::OnSwitch`] where a law switches in this state, and its sides differ. Off its switch
+    /// a law is that of the side where it is.
     pub fn linearise<const K: usize, const P: usize>(
         &self,
         state: &M::JointState<S>,
@@ -102,6 +104,7 @@ where
         read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Linearised<N, K, P, S>, Fault> {
         let values = values.map(|value| Adjusted::Value(value.index()));
+        self.off_bends(state, &values)?;
         self.slopes(state, &values, Outcome::Accelerations, read)
     }
 

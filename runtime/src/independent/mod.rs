@@ -9,10 +9,11 @@
 //!   states and back; `followed.rs`: the same near a singular configuration.
 //! - `directions.rs`: derivatives along coordinates, rates and values.
 //! - `elimination.rs`: Gauss-Jordan, for these equations and for Newton's method.
-//! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions;
+//! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions,
+//!   over `spectrum.rs` and `jacobi.rs`;
 //!   `lqr.rs`: the gain of a regulator.
 //! - `equilibrium.rs`: states without accelerations, over `balance.rs`; `trim.rs`: with inputs and
-//!   parameters as unknowns (`varied.rs`).
+//!   parameters as unknowns (`varied.rs`). `switched.rs`: states on the switch of a law.
 //! - `continuation.rs`: equilibria along a parameter; `walk.rs`: points and steps, `folds.rs`:
 //!   folds and branchings, `stability.rs`: eigenvalues of the stiffness.
 //! - `regressor.rs`: inverse dynamics by inertial parameters. `identification.rs`: these from
@@ -38,6 +39,7 @@ mod folds;
 mod followed;
 #[cfg(feature = "std")]
 mod identification;
+mod jacobi;
 mod linear;
 mod linearised;
 mod lqr;
@@ -46,8 +48,11 @@ mod modes;
 mod partition;
 mod points;
 mod regressor;
+#[cfg(feature = "std")]
+mod spectrum;
 mod stability;
 mod states;
+mod switched;
 mod trim;
 mod varied;
 mod walk;

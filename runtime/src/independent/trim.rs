@@ -130,6 +130,7 @@ where
                     return Err(fault);
                 }
                 let ((space, rates), (state, _)) = trial(S::one()).unwrap_or((set, here));
+                space.off_jumps(&state)?;
                 let state = space.steady(&state, &linear.by_positions, &rates)?;
                 let state = space.within_limits(state)?;
                 return Ok((state, adjusted.map(|of| space.present(of, &rates))));

@@ -241,6 +241,7 @@ impl<const N: usize, S: Real> Walk<N, S> {
                 if let Ok(next) = next {
                     (set, (state, _)) = next;
                 }
+                set.0.off_bends(&state, &[self.along])?;
                 return Ok(Spot {
                     value: set.0.present(self.along, &set.1),
                     set,

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod instants;
+mod linear;
 mod oscillators;
 mod resting;
 mod runs;

@@ -94,8 +94,8 @@ const STIFFNESS: f64 = 25.0;
 /// A mass of 1 kg between two springs that it touches beyond a play: one expression by its sign and
 /// its size, and one by its excess.
 #[derive(Mechanism)]
-#[mechanism(coordinates = "both")]
-struct Backlash {
+#[mechanism(coordinates = "both", kernels = [mass, inverse])]
+pub(super) struct Backlash {
     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [1.0, 0.0, 0.0])]
     slider: Body,
     #[joint(between = [ground, slider], point = [1.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]

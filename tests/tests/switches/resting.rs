@@ -8,8 +8,8 @@ use super::{run, tight};
 
 /// Dry friction as a law, on a slider that a force pulls.
 #[derive(Mechanism)]
-#[mechanism(coordinates = "both")]
-struct Dry {
+#[mechanism(coordinates = "both", kernels = [mass, inverse])]
+pub(super) struct Dry {
     #[param]
     speed: f64,
     #[param]
@@ -25,7 +25,7 @@ struct Dry {
     friction: Actuator,
 }
 
-fn dry(speed: f64, pull: f64) -> Dry {
+pub(super) fn dry(speed: f64, pull: f64) -> Dry {
     Dry::new(speed, pull).expect("acceptable")
 }
 
