@@ -33,6 +33,7 @@ mod deferred;
 pub(crate) mod dense_step;
 pub(crate) mod direct;
 pub(crate) mod events;
+mod explained;
 pub(crate) mod kinematics;
 pub(crate) mod output;
 pub(crate) mod passing;

@@ -6,14 +6,12 @@ use core::ops::ControlFlow;
 use crate::dynamics::Dynamics;
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{
-    Advance, Counts, Integration as _, Integrator, Method, System as _, TimeSpan,
-};
+use crate::integrate::{Advance, Counts, Integration as _, Integrator, System as _, TimeSpan};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::monitor::{Monitor, fastest};
+use crate::monitor::Monitor;
 use crate::run::companion::Companion;
 use crate::run::deferred::Deferred;
 use crate::run::events::list::Hybrid;
@@ -123,6 +121,7 @@ where
         past: Option<&Past<'_, S, M>>,
     ) -> Result<RunReport<S, M>, Fault> {
         let mut from = start;
+        self.leave_zeros(last_good, end - start);
         if let Some(past) = past {
             self.take_past(past)
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
@@ -160,12 +159,21 @@ where
             if let Some(companion) = &mut companion {
                 companion.restart(&span, self.stabilisation);
             }
-            let reached = self.segment(integrator, &mut companion, span, last_good, past.take());
+            let is_between = past.is_none_or(|past| past.segment.is_none());
+            let reached = if is_between && self.goes_across(last_good, until)? {
+                if self.schedule.at(last_good.0, self.log.unseen) {
+                    self.show(last_good.0, &last_good.1, &mut companion);
+                }
+                Ok(())
+            } else {
+                self.segment(integrator, &mut companion, span, last_good, past.take())
+            };
             self.convert(last_good);
             if reached.is_ok() && self.passing.has_refused() {
                 from = last_good.0;
                 continue;
             }
+            self.leave_zeros(last_good, until - from);
             reached
                 .and_then(|()| self.happen(last_good, &mut companion))
                 .and_then(|()| self.keep_between(integrator, last_good, end))
@@ -563,50 +571,6 @@ where
             verification: None,
             monitor: self.monitor,
         }
-    }
-
-    /// A fault with what the run knows of its cause.
-    #[cold]
-    fn explained<I: Method<S>>(
-        &self,
-        integrator: &I,
-        fault: Fault,
-        last_good: (S, M::State<S>),
-    ) -> Fault {
-        /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5
-        /// up to about this over `a`, and grows for some time from somewhat less on.
-        const STABLE: f64 = 2.0;
-        /// Radians in a step that no motion has.
-        const BEYOND: f64 = 1e6;
-        let not_finite = matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite);
-        if not_finite
-            && let (Some(step), Some(rate)) = (
-                integrator.fixed_step(),
-                self.dynamics.formulation().decay_rate(),
-            )
-            && step * rate > S::constant(STABLE)
-        {
-            return Fault::StepTooLong {
-                step: step.to_f64(),
-                rate: rate.to_f64(),
-            };
-        }
-        // A step in which something turns by radians, or moves by lengths of the mechanism, is too
-        // long whatever came of it: pivots of such numbers may vanish, too.
-        let turned = match fault {
-            Fault::Singular { .. } => Some(BEYOND),
-            _ => not_finite.then_some(1.0),
-        };
-        let (constants, state) = (self.dynamics.constants(), &last_good.1);
-        if let (Some(turned), Some(step)) = (turned, integrator.fixed_step())
-            && step * fastest::<S, M>(constants, state) > S::constant(turned)
-        {
-            return Fault::Unstable {
-                step: step.to_f64(),
-            };
-        }
-        let absolute = integrator.tolerance().map(|tolerance| tolerance.absolute);
-        self.dynamics.explained(fault, absolute, last_good)
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod instants;
 mod oscillators;
+mod passages;
 mod resting;
 mod runs;
 mod second_road;

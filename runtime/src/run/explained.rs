@@ -1,0 +1,64 @@
+//! Faults of a run with what it knows of their causes.
+
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::Method;
+use crate::math::scalar::Real;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::monitor::fastest;
+use crate::run::segments::Run;
+
+impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// A fault with what the run knows of its cause.
+    #[cold]
+    pub(crate) fn explained<I: Method<S>>(
+        &self,
+        integrator: &I,
+        fault: Fault,
+        last_good: (S, M::State<S>),
+    ) -> Fault {
+        /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5
+        /// up to about this over `a`, and grows for some time from somewhat less on.
+        const STABLE: f64 = 2.0;
+        /// Radians in a step that no motion has.
+        const BEYOND: f64 = 1e6;
+        let not_finite = matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite);
+        if not_finite
+            && let (Some(step), Some(rate)) = (
+                integrator.fixed_step(),
+                self.dynamics.formulation().decay_rate(),
+            )
+            && step * rate > S::constant(STABLE)
+        {
+            return Fault::StepTooLong {
+                step: step.to_f64(),
+                rate: rate.to_f64(),
+            };
+        }
+        // A step in which something turns by radians, or moves by lengths of the mechanism, is too
+        // long whatever came of it: pivots of such numbers may vanish, too.
+        let turned = match fault {
+            Fault::Singular { .. } => Some(BEYOND),
+            _ => not_finite.then_some(1.0),
+        };
+        let (constants, state) = (self.dynamics.constants(), &last_good.1);
+        if let (Some(turned), Some(step)) = (turned, integrator.fixed_step())
+            && step * fastest::<S, M>(constants, state) > S::constant(turned)
+        {
+            return Fault::Unstable {
+                step: step.to_f64(),
+            };
+        }
+        let absolute = integrator.tolerance().map(|tolerance| tolerance.absolute);
+        self.dynamics.explained(fault, absolute, last_good)
+    }
+}
