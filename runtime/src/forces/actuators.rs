@@ -3,7 +3,7 @@
 crate::force! {
     /// An actuator between the point `head` of `i` and the point `tail` of `j`: `force` (N) pushes
     /// them apart where it is positive. It is an expression of `length` (m, the distance of the
-    /// points, never zero), `rate` (m/s) and `time` (s), as in
+    /// points, not at rest at zero), `rate` (m/s) and `time` (s), as in
     /// `force = -1000.0 * (length - 0.5) - 3.0 * rate`.
     pub force Actuator(i, j; head: Point, tail: Point, force: Law(length, rate)) {
         let d = length(j.tail - i.head);

@@ -3,9 +3,10 @@
 crate::force! {
     /// A spring and a damper between the point `head` of `i` and the point `tail` of `j`, in
     /// parallel: they pull with `stiffness (d - free_length) + damping d'` (N), where `d` is the
-    /// distance of the points (m). Where that is zero there is no direction, and the force is not
-    /// finite; a `free_length` of a literal 0 without damping needs none, and lets the points pass
-    /// each other. Stiffness in N/m, damping in N s/m, potential energy
+    /// distance of the points (m). The force turns round where the points pass each other, which a
+    /// run finds. At rest at zero there is no direction, and the force is not finite; a
+    /// `free_length` of a literal 0 without damping needs none. Stiffness in N/m, damping in N s/m,
+    /// potential energy
     /// `stiffness (d - free_length)^2 / 2` (Nikravesh 1988, section 9.3.4).
     pub force SpringDamper(
         i, j; head: Point, tail: Point, stiffness: Number, damping: Number = 0.0, free_length: Length

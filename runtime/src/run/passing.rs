@@ -3,12 +3,13 @@
 //! The direction of such a force flips where its two points meet, and turns fast where they pass
 //! close by. A step over that is of first order, by every method. So a step in which a direction
 //! turns with its points close is not taken. The run goes on in shorter ones. Each covers a part of
-//! the distance, as large a part as the way is straight. Where the points meet to round-off, a step
-//! of [`LEAST`] leads across. A straight passage takes some ten steps, another one some fifty.
+//! the distance, as large a part as the way is straight. Where the points meet to round-off, the
+//! velocities lead across in [`ACROSS`] times the least step. A straight passage takes some ten steps, another one some fifty.
 //!
 //! The separations are those of the bodies at both ends of a step. Where nothing turns round, none
 //! of this is compiled.
 
+use crate::constraints::extent::largest;
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{Integration, Memory};
@@ -64,14 +65,17 @@ const STRAIGHT: f64 = 0.98;
 /// longest step of the run.
 const BENT: f64 = 1e-7;
 
-/// The step across, as a part of the longest one of the run.
-const LEAST: f64 = 1e-12;
+/// The step across, in units in the last place of the longest one of the run.
+const LEAST: f64 = 4096.0;
 
 /// How many of them lead across at once.
 const ACROSS: f64 = 4.0;
 
-/// The same in units in the last place of the time.
-const LEAST_OF_TIME: f64 = 64.0;
+/// The same in units in the last place of the time, and of places on the way.
+const LEAST_DIGITS: f64 = 64.0;
+
+/// Where points pass each other again and again, a step is this part of the last swing at the most.
+const OF_SWING: f64 = 0.125;
 
 /// The square of the distance, in ways of a step, from which on some steps are not looked at.
 const FAR_SQUARED: f64 = 1024.0;
@@ -82,6 +86,9 @@ const SKIPPED: usize = 3;
 /// How often points may pass each other at once.
 const AT_ONCE: usize = 8;
 
+/// How many steps may be refused at once: a passage takes a few.
+const REFUSED: usize = 64;
+
 /// At once: within this part of the longest step of the run.
 const MOMENT: f64 = 1e-3;
 
@@ -91,6 +98,9 @@ pub(crate) struct Passing<S> {
     /// How long (s) the segment under way may be, and the next one.
     limit: Option<S>,
     next: Option<S>,
+    /// How long (s) it goes on by its velocities before that, and the place of the length.
+    across: Option<S>,
+    place: usize,
     /// The longest step so far (s).
     longest: S,
     /// Steps that need not be looked at.
@@ -98,6 +108,11 @@ pub(crate) struct Passing<S> {
     /// When points passed each other last (s), and how often at once.
     last: Option<S>,
     at_once: usize,
+    /// How long (s) it was before the last time; zero if that was the first.
+    swing: S,
+    /// When a step was refused first of those at once (s), and how many.
+    refused_from: S,
+    refused: usize,
     /// Whether the last step was not taken.
     refuses: bool,
 }
@@ -112,6 +127,8 @@ struct Judged<S> {
     from_end: S,
     /// Whether all points are far from each other.
     is_far: bool,
+    /// The square of the shortest way (m) of those that are not.
+    way: S,
 }
 
 impl<S: Real> Passing<S> {
@@ -119,10 +136,15 @@ impl<S: Real> Passing<S> {
         Self {
             limit: None,
             next: None,
+            across: None,
+            place: 0,
             longest: S::zero(),
             skipped: 0,
             last: None,
             at_once: 0,
+            swing: S::zero(),
+            refused_from: S::zero(),
+            refused: 0,
             refuses: false,
         }
     }
@@ -136,10 +158,15 @@ impl<S: Real> Passing<S> {
     pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>) {
         memory.optional(&mut self.limit);
         memory.optional(&mut self.next);
+        memory.optional(&mut self.across);
+        memory.count(&mut self.place);
         memory.number(&mut self.longest);
         memory.count(&mut self.skipped);
         memory.optional(&mut self.last);
         memory.count(&mut self.at_once);
+        memory.number(&mut self.swing);
+        memory.number(&mut self.refused_from);
+        memory.count(&mut self.refused);
     }
 
     /// Begins a segment.
@@ -161,38 +188,64 @@ impl<S: Real> Passing<S> {
 
     /// The step (s) across.
     fn least(&self, time: S) -> S {
-        let of_time = S::constant(LEAST_OF_TIME) * time.ulp();
-        (S::constant(LEAST) * self.longest).max(of_time)
+        let digits = S::constant(LEAST_DIGITS) * time.ulp();
+        (S::constant(LEAST) * S::EPSILON * self.longest).max(digits)
+    }
+
+    /// The same where places are up to a size (m), and change in a step as was judged.
+    fn least_of(&self, judged: &Judged<S>, (start, end): (S, S), size: S) -> S {
+        let digits = S::constant(LEAST_DIGITS) * S::EPSILON * size;
+        let way = judged.way.max(S::smallest()).sqrt();
+        self.least(end).max((digits * (end - start)).quotient(way))
     }
 
     /// Whether a step between two times (s) is taken; the next segment is limited accordingly.
-    fn takes(&mut self, judged: &Judged<S>, (start, end): (S, S)) -> Result<bool, usize> {
+    fn takes(&mut self, judged: &Judged<S>, (start, end): (S, S), size: S) -> Result<bool, usize> {
         let step = end - start;
-        let least = self.least(end);
-        let limited = |part: S| {
-            let length = part * step;
-            if length < least {
-                S::constant(ACROSS) * least
-            } else {
-                length
-            }
-        };
-        if let Some(place) = judged.turns {
-            if step > S::constant(2.0 * ACROSS) * least {
-                let most = S::constant(0.5) * step;
-                self.longest = self.longest.max(step);
-                self.next = Some(limited(judged.from_start).min(most));
-                self.refuses = true;
-                return Ok(false);
-            }
-            self.count(end, place)?;
-        }
+        let least = self.least_of(judged, (start, end), size);
         self.longest = self.longest.max(step);
-        let is_limited = self.limit.is_some() || judged.turns.is_some();
-        let left = limited(judged.from_end);
-        self.next = (is_limited && left < self.longest).then_some(left);
-        self.skipped = if judged.is_far { SKIPPED } else { 0 };
+        if let Some(place) = judged.turns {
+            let next = (judged.from_start * step).min(S::constant(0.5) * step);
+            self.plan(next, least, place);
+            return self.refuse(start).then_some(false).ok_or(place);
+        }
+        let swings = self.swings(end);
+        let mut left = judged.from_end * step;
+        if swings {
+            left = left.min(S::constant(OF_SWING) * self.swing);
+        }
+        if (self.limit.is_some() || swings) && left < self.longest {
+            self.plan(left, least, self.place);
+        }
+        self.skipped = if judged.is_far && !swings { SKIPPED } else { 0 };
         Ok(true)
+    }
+
+    /// Plans the next segment (s): across, if it is below the least step.
+    fn plan(&mut self, next: S, least: S, place: usize) {
+        (self.next, self.across, self.place) = (Some(next), None, place);
+        if next < least {
+            let across = S::constant(ACROSS) * least;
+            let behind = S::constant(0.5 * GROWN) * across;
+            (self.next, self.across) = (Some(behind), Some(across));
+        }
+    }
+
+    /// Whether the points may pass each other soon, as they did before.
+    fn swings(&self, time: S) -> bool {
+        let last = self.last.filter(|_| self.swing > S::zero());
+        last.is_some_and(|last| time - last <= self.swing + self.swing)
+    }
+
+    /// Refuses a step from a time (s) on; whether that is not too often.
+    fn refuse(&mut self, time: S) -> bool {
+        let moment = S::constant(MOMENT) * self.longest;
+        if self.refused == 0 || time - self.refused_from > moment {
+            (self.refused_from, self.refused) = (time, 0);
+        }
+        self.refused += 1;
+        self.refuses = true;
+        self.refused <= REFUSED
     }
 
     /// Counts that points have passed each other.
@@ -200,6 +253,7 @@ impl<S: Real> Passing<S> {
         let moment = S::constant(MOMENT) * self.longest;
         let is_at_once = self.last.is_some_and(|last| time - last <= moment);
         self.at_once = if is_at_once { self.at_once + 1 } else { 0 };
+        self.swing = self.last.map_or(S::zero(), |last| time - last);
         self.last = Some(time);
         if self.at_once >= AT_ONCE {
             return Err(place);
@@ -275,6 +329,7 @@ fn judged<S: Real, M: Mechanism>(
         from_start: never,
         from_end: never,
         is_far: true,
+        way: never,
     };
     let [(start, _), (end, _)] = ends;
     let longest = longest.max(end - start).quotient(end - start);
@@ -285,6 +340,7 @@ fn judged<S: Real, M: Mechanism>(
             return;
         }
         judged.is_far = false;
+        judged.way = judged.way.min(dot(&way, &way));
         judged.from_end = judged.from_end.min(allowed(&after, &way, by));
         if turns([&before, &after], &way, bends.slight) {
             judged.turns = Some(place);
@@ -331,9 +387,47 @@ where
         let ends = [(start, near), (end, &bodies)];
         let bends = integration.estimate().map_or(&FIXED, |_| &CONTROLLED);
         let by = (self.passing.longest, bends);
-        let judged = judged::<S, M>(self.dynamics.constants(), ends, by);
-        let taken = self.passing.takes(&judged, (start, end));
+        let mut judged = judged::<S, M>(self.dynamics.constants(), ends, by);
+        if judged.turns.is_none() && !judged.is_far && self.passing.last.is_some() {
+            judged.turns = self.misses([(start, near), (end, &bodies)]);
+        }
+        let is_near = judged.turns.is_some() || self.passing.limit.is_some();
+        let size = if is_near {
+            self.places(&bodies)
+        } else {
+            S::zero()
+        };
+        let taken = self.passing.takes(&judged, (start, end), size);
         taken.map_err(|place| holds::<S, M>(place, end))
+    }
+
+    /// The place of a length that may have passed through zero twice in a step: it ends far, by the
+    /// distance there, from where the velocities at the start lead. Only after a first passage, which
+    /// no step contains twice.
+    fn misses(&self, [(start, near), (end, bodies)]: [(S, &M::State<S>); 2]) -> Option<usize> {
+        let constants = self.dynamics.constants();
+        let rates = M::coordinate_rates(constants, near);
+        let rates = M::State::from_parts(rates, Array::zeros());
+        let ahead = near.plus([(end - start, &rates)]);
+        let mut missed = None;
+        M::separations(constants, [(end, &ahead), (end, bodies)], &mut |place,
+                                                                        [
+            ahead,
+            there,
+        ]| {
+            let off = minus(&there, &ahead);
+            if dot(&off, &off) > S::constant(CLOSE) * dot(&there, &there) {
+                missed = Some(place);
+            }
+        });
+        missed
+    }
+
+    /// How large places are, of bodies here and where they were described.
+    fn places(&self, bodies: &M::State<S>) -> S {
+        let described = M::initial_state(self.dynamics.constants());
+        let all = [bodies, &described].map(|state| largest(state.coordinates().as_slice()));
+        all[0].max(all[1])
     }
 
     /// Whether a step that has failed, of so many seconds at the most, is tried again, shorter: by
@@ -342,24 +436,51 @@ where
     #[inline(never)]
     pub(super) fn tries_again(&mut self, (time, state): (S, &M::State<S>), step: S) -> bool {
         let step = self.passing.limit.unwrap_or(step).min(step);
-        if M::SEPARATIONS.is_empty() || step <= S::constant(2.0 * ACROSS) * self.passing.least(time)
-        {
+        if M::SEPARATIONS.is_empty() {
             return false;
         }
         let constants = self.dynamics.constants();
         let rates = M::coordinate_rates(constants, state);
         let rates = M::State::from_parts(rates, Array::zeros());
-        let ahead = S::constant(2.0) * step;
-        let later = state.plus([(ahead, &rates)]);
-        let ends = [(time, state), (time + ahead, &later)];
+        let end = time + S::constant(2.0) * step;
+        let later = state.plus([(end - time, &rates)]);
+        let ends = [(time, state), (end, &later)];
         let judged = judged::<S, M>(constants, ends, (self.passing.longest, &FIXED));
-        if judged.turns.is_none() {
+        let Some(place) = judged.turns else {
+            return false;
+        };
+        let size = self.places(state);
+        let least = self.passing.least_of(&judged, (time, end), size);
+        let across = S::constant(ACROSS) * least;
+        let next = (judged.from_start * (end - time)).min(S::constant(0.5) * step);
+        // It has failed though it was across.
+        if step <= across && self.passing.limit.is_some() {
             return false;
         }
-        let next = (judged.from_start * ahead).min(S::constant(0.5) * step);
-        self.passing.next = Some(next);
-        self.passing.refuses = true;
-        true
+        self.passing.plan(next, least, place);
+        self.passing.refuse(time)
+    }
+
+    /// Goes across a length of zero by the velocities, up to a time (s) at the most; whether that
+    /// was planned. No method can: its stages would meet the zero.
+    pub(super) fn goes_across(
+        &mut self,
+        (time, state): &mut (S, M::State<S>),
+        until: S,
+    ) -> Result<bool, Fault> {
+        let Some(step) = self.passing.across.take() else {
+            return Ok(false);
+        };
+        self.passing.next = self.passing.limit.take();
+        let end = until.min(*time + step);
+        let rates = M::coordinate_rates(self.dynamics.constants(), state);
+        let rates = M::State::from_parts(rates, Array::zeros());
+        *state = state.plus([(end - *time, &rates)]);
+        *time = end;
+        self.log.unseen += 1;
+        let counted = self.passing.count(end, self.passing.place);
+        counted.map_err(|place| holds::<S, M>(place, end))?;
+        Ok(true)
     }
 
     /// Leaves a length that is exactly zero on the way of the motion, as little as can be told: its
@@ -379,7 +500,12 @@ where
             let step = if longest > S::zero() { longest } else { left };
             let rates = M::coordinate_rates(constants, state);
             let rates = M::State::from_parts(rates, Array::zeros());
-            *state = state.plus([(S::constant(LEAST) * step, &rates)]);
+            let (end, later) = (*time + step, state.plus([(step, &rates)]));
+            let ends = [(*time, &*state), (end, &later)];
+            let judged = judged::<S, M>(constants, ends, (longest, &FIXED));
+            let size = self.places(state);
+            let least = self.passing.least_of(&judged, (*time, end), size);
+            *state = state.plus([(least.min(step), &rates)]);
         }
     }
 }

@@ -124,6 +124,7 @@ where
         past: Option<&Past<'_, S, M>>,
     ) -> Result<RunReport<S, M>, Fault> {
         let mut from = start;
+        self.leave_zeros(last_good, end - start);
         if let Some(past) = past {
             self.take_past(past)
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
@@ -161,12 +162,21 @@ where
             if let Some(companion) = &mut companion {
                 companion.restart(&span, self.stabilisation);
             }
-            let reached = self.segment(integrator, &mut companion, span, last_good, past.take());
+            let is_between = past.is_none_or(|past| past.segment.is_none());
+            let reached = if is_between && self.goes_across(last_good, until)? {
+                if self.schedule.at(last_good.0, self.log.unseen) {
+                    self.show(last_good.0, &last_good.1, &mut companion);
+                }
+                Ok(())
+            } else {
+                self.segment(integrator, &mut companion, span, last_good, past.take())
+            };
             self.convert(last_good);
             if reached.is_ok() && self.passing.has_refused() {
                 from = last_good.0;
                 continue;
             }
+            self.leave_zeros(last_good, until - from);
             reached
                 .and_then(|()| self.happen(last_good, &mut companion))
                 .and_then(|()| self.keep_between(integrator, last_good, end))

@@ -5,6 +5,7 @@
 mod instants;
 mod linear;
 mod oscillators;
+mod passages;
 mod resting;
 mod runs;
 mod second_road;

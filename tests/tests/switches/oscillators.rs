@@ -26,7 +26,7 @@ struct BangBang {
 }
 
 /// The place `t` seconds after the start at 1 m: arcs of parabolas, with a period of `4 sqrt(2)`.
-fn arcs(t: f64) -> f64 {
+pub(super) fn arcs(t: f64) -> f64 {
     let quarter = 2.0_f64.sqrt();
     let phase = t.rem_euclid(4.0 * quarter);
     let (sign, phase) = if phase > quarter && phase < 3.0 * quarter {

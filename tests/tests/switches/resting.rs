@@ -179,6 +179,21 @@ struct Counted {
 }
 
 #[test]
+fn a_law_is_continuous_at_its_switch_where_both_sides_agree() {
+    let of = |switches: &[holonom::mechanism::Switch]| {
+        let flags = switches.iter().map(|switch| switch.is_continuous);
+        flags.collect::<Vec<_>>()
+    };
+    // What `sign` and `if` read jumps, be it through `max`.
+    assert!(
+        of(Counted::SWITCHES)
+            .iter()
+            .all(|is_continuous| !is_continuous)
+    );
+    assert!(of(Dry::SWITCHES) == [false] && of(Unstable::SWITCHES) == [false]);
+}
+
+#[test]
 fn laws_that_come_to_rest_at_zero_have_the_value_there() {
     use core::f64::consts::{PI, TAU};
     let (mechanism, h) = (Counted::default(), Counted::HANDLES);

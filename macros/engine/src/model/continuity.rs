@@ -17,6 +17,9 @@ impl LawTerm {
                     && first.is_continuous_at(of)
                     && second.is_continuous_at(of)
             }
+            Self::Function(Function::Reciprocal, inner) => {
+                !inner.vanishes_with(of) && inner.is_continuous_at(of)
+            }
             Self::Product(a, b) => {
                 (a.is_continuous_at(of) || b.vanishes_with(of) && a.is_bounded())
                     && (b.is_continuous_at(of) || a.vanishes_with(of) && b.is_bounded())

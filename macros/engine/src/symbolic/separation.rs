@@ -255,6 +255,9 @@ impl Probe<'_> {
         if scalar == self.length {
             return [self.at[0], 1.0];
         }
+        if under(self.length) == Some(scalar) {
+            return [self.at[0] * self.at[0], 2.0 * self.at[0]];
+        }
         match scalar {
             ScalarExpr::Constant(value) => [self.constant(*value), 0.0],
             ScalarExpr::State { value, .. } | ScalarExpr::Setpoint([value, ..]) => {
