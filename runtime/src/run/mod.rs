@@ -9,7 +9,7 @@
 //! run reads, without a heap. A run is compiled once for both: a resumed integration is begun as it
 //! was, and then its memory is replaced.
 //!
-//! `passing.rs` leads a run through instants at which two points meet that a force acts between.
+//! `passing.rs` and `passages.rs` lead a run through instants at which two points meet that a force acts between.
 //!
 //! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The
 //! generated factors, of the matrix with the masses, precondition its conjugate gradients, so no
@@ -36,6 +36,7 @@ pub(crate) mod events;
 mod explained;
 pub(crate) mod kinematics;
 pub(crate) mod output;
+mod passages;
 pub(crate) mod passing;
 pub(crate) mod past;
 pub(crate) mod post_step;
