@@ -11,7 +11,8 @@
 //!
 //! `followed.rs` counts the turns of angles within a step, in the account that states carry.
 //!
-//! `passing.rs` leads a run through instants at which two points meet that a force acts between.
+//! `passing.rs` and `passages.rs` lead a run through instants at which two points meet that a force
+//! acts between.
 //!
 //! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The
 //! generated factors, of the matrix with the masses, precondition its conjugate gradients, so no
@@ -40,6 +41,7 @@ pub(crate) mod followed;
 pub(crate) mod interactions;
 pub(crate) mod kinematics;
 pub(crate) mod output;
+mod passages;
 pub(crate) mod passing;
 pub(crate) mod past;
 pub(crate) mod post_step;

@@ -4,33 +4,27 @@
 //! close by. A step over that is of first order, by every method. So a step in which a direction
 //! turns with its points close is not taken. The run goes on in shorter ones. Each covers a part of
 //! the distance, as large a part as the way is straight. Where the points meet to round-off, the
-//! velocities lead across in [`ACROSS`] times the least step. A straight passage takes some ten steps, another one some fifty.
+//! velocities lead across in [`ACROSS`] times the least step. A straight passage takes some ten
+//! steps, another one some fifty. `passages.rs` is what a run does of this.
 //!
 //! The separations are those of the bodies at both ends of a step. Where nothing turns round, none
 //! of this is compiled.
 
-use crate::constraints::extent::largest;
-use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::integrate::{Integration, Memory};
+use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::math::vec3::{minus, plus, times};
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::segments::Run;
-use crate::state::vector::{Array, StateParts as _, Vector as _};
 
 /// A step is not taken where the points come closer than this part, squared, of their larger
 /// distance at its ends, and the direction turns by more than [`Bends::slight`].
-const CLOSE: f64 = 0.25;
+pub(super) const CLOSE: f64 = 0.25;
 
 /// Or where it turns by more than the angle of this cosine, squared, and they come closer than this
 /// part, squared. A line of constant length that turns by a radian comes no closer.
 const STRONG: [f64; 2] = [0.25, 0.5];
 
 /// What is allowed in a step besides a straight way.
-struct Bends {
+pub(super) struct Bends {
     /// The square of the cosine of a turn in a step that is taken however close the points come.
     slight: f64,
     /// Part of the distance of the points that is covered, the least and the most: the less, the
@@ -41,21 +35,21 @@ struct Bends {
 }
 
 /// Of a method of any order without control of the error.
-const FIXED: Bends = Bends {
+pub(super) const FIXED: Bends = Bends {
     slight: 0.97,
     covered: [0.1, 0.5],
     turned: 0.1,
 };
 
 /// Of one that controls it.
-const CONTROLLED: Bends = Bends {
+pub(super) const CONTROLLED: Bends = Bends {
     slight: 0.81,
     covered: [1.0, 1.0],
     turned: 0.5,
 };
 
-/// A step covers no more than so many distances: what is stiff across them, as forces are by `1 / length`,
-/// differs by that much at the ends of a step of an implicit method.
+/// A step covers no more than so many distances. What is stiff across them, as forces are by the
+/// reciprocal of the length, differs by that much at the ends of a step of an implicit method.
 const GROWN: f64 = 1e3;
 
 /// This one on a straight way towards each other: it must not lead across.
@@ -69,7 +63,7 @@ const BENT: f64 = 1e-7;
 const LEAST: f64 = 4096.0;
 
 /// How many of them lead across at once.
-const ACROSS: f64 = 4.0;
+pub(super) const ACROSS: f64 = 4.0;
 
 /// The same in units in the last place of the time, and of places on the way.
 const LEAST_DIGITS: f64 = 64.0;
@@ -96,17 +90,17 @@ const MOMENT: f64 = 1e-3;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Passing<S> {
     /// How long (s) the segment under way may be, and the next one.
-    limit: Option<S>,
-    next: Option<S>,
+    pub(super) limit: Option<S>,
+    pub(super) next: Option<S>,
     /// How long (s) it goes on by its velocities before that, and the place of the length.
-    across: Option<S>,
-    place: usize,
+    pub(super) across: Option<S>,
+    pub(super) place: usize,
     /// The longest step so far (s).
-    longest: S,
+    pub(super) longest: S,
     /// Steps that need not be looked at.
-    skipped: usize,
+    pub(super) skipped: usize,
     /// When points passed each other last (s), and how often at once.
-    last: Option<S>,
+    pub(super) last: Option<S>,
     at_once: usize,
     /// How long (s) it was before the last time; zero if that was the first.
     swing: S,
@@ -118,15 +112,15 @@ pub(crate) struct Passing<S> {
 }
 
 /// What a step has done to the lengths.
-struct Judged<S> {
+pub(super) struct Judged<S> {
     /// The place of one whose direction turns with its points close.
-    turns: Option<usize>,
+    pub(super) turns: Option<usize>,
     /// How many times the step the next one may be: from its start by those that turn, and from its
     /// end by all.
-    from_start: S,
+    pub(super) from_start: S,
     from_end: S,
     /// Whether all points are far from each other.
-    is_far: bool,
+    pub(super) is_far: bool,
     /// The square of the shortest way (m) of those that are not.
     way: S,
 }
@@ -193,14 +187,19 @@ impl<S: Real> Passing<S> {
     }
 
     /// The same where places are up to a size (m), and change in a step as was judged.
-    fn least_of(&self, judged: &Judged<S>, (start, end): (S, S), size: S) -> S {
+    pub(super) fn least_of(&self, judged: &Judged<S>, (start, end): (S, S), size: S) -> S {
         let digits = S::constant(LEAST_DIGITS) * S::EPSILON * size;
         let way = judged.way.max(S::smallest()).sqrt();
         self.least(end).max((digits * (end - start)).quotient(way))
     }
 
     /// Whether a step between two times (s) is taken; the next segment is limited accordingly.
-    fn takes(&mut self, judged: &Judged<S>, (start, end): (S, S), size: S) -> Result<bool, usize> {
+    pub(super) fn takes(
+        &mut self,
+        judged: &Judged<S>,
+        (start, end): (S, S),
+        size: S,
+    ) -> Result<bool, usize> {
         let step = end - start;
         let least = self.least_of(judged, (start, end), size);
         self.longest = self.longest.max(step);
@@ -222,7 +221,7 @@ impl<S: Real> Passing<S> {
     }
 
     /// Plans the next segment (s): across, if it is below the least step.
-    fn plan(&mut self, next: S, least: S, place: usize) {
+    pub(super) fn plan(&mut self, next: S, least: S, place: usize) {
         (self.next, self.across, self.place) = (Some(next), None, place);
         if next < least {
             let across = S::constant(ACROSS) * least;
@@ -233,12 +232,13 @@ impl<S: Real> Passing<S> {
 
     /// Whether the points may pass each other soon, as they did before.
     fn swings(&self, time: S) -> bool {
-        let last = self.last.filter(|_| self.swing > S::zero());
+        let is_short = self.swing < self.longest + self.longest;
+        let last = self.last.filter(|_| is_short && self.swing > S::zero());
         last.is_some_and(|last| time - last <= self.swing + self.swing)
     }
 
     /// Refuses a step from a time (s) on; whether that is not too often.
-    fn refuse(&mut self, time: S) -> bool {
+    pub(super) fn refuse(&mut self, time: S) -> bool {
         let moment = S::constant(MOMENT) * self.longest;
         if self.refused == 0 || time - self.refused_from > moment {
             (self.refused_from, self.refused) = (time, 0);
@@ -249,7 +249,7 @@ impl<S: Real> Passing<S> {
     }
 
     /// Counts that points have passed each other.
-    fn count(&mut self, time: S, place: usize) -> Result<(), usize> {
+    pub(super) fn count(&mut self, time: S, place: usize) -> Result<(), usize> {
         let moment = S::constant(MOMENT) * self.longest;
         let is_at_once = self.last.is_some_and(|last| time - last <= moment);
         self.at_once = if is_at_once { self.at_once + 1 } else { 0 };
@@ -292,7 +292,7 @@ fn allowed<S: Real>(from: &[S; 3], way: &[S; 3], (longest, bends): (S, &Bends)) 
     straight.max(covered * distances).min(never)
 }
 
-fn dot<S: Real>(a: &[S; 3], b: &[S; 3]) -> S {
+pub(super) fn dot<S: Real>(a: &[S; 3], b: &[S; 3]) -> S {
     let ([a1, a2, a3], [b1, b2, b3]) = (*a, *b);
     a1 * b1 + a2 * b2 + a3 * b3
 }
@@ -318,7 +318,7 @@ fn turns<S: Real>([before, after]: [&[S; 3]; 2], way: &[S; 3], slight: f64) -> b
 }
 
 /// Looks at the separations at the start and at the end of a step.
-fn judged<S: Real, M: Mechanism>(
+pub(super) fn judged<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     ends: [(S, &M::State<S>); 2],
     (longest, bends): (S, &Bends),
@@ -348,174 +348,4 @@ fn judged<S: Real, M: Mechanism>(
         }
     });
     judged
-}
-
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
-    /// Whether the last step is taken, which began at a time where the bodies stood near by: no
-    /// direction of a force has turned round in it.
-    #[inline]
-    pub(super) fn is_taken<K: Integration<S, C::State<S>>>(
-        &mut self,
-        integration: &K,
-        start: (S, &M::State<S>),
-    ) -> Result<bool, Fault> {
-        if M::SEPARATIONS.is_empty() {
-            return Ok(true);
-        }
-        if self.passing.skipped > 0 {
-            self.passing.skipped -= 1;
-            return Ok(true);
-        }
-        self.look_for_passages(integration, start)
-    }
-
-    #[inline(never)]
-    fn look_for_passages<K: Integration<S, C::State<S>>>(
-        &mut self,
-        integration: &K,
-        (start, near): (S, &M::State<S>),
-    ) -> Result<bool, Fault> {
-        let end = integration.time();
-        let bodies = self.dynamics.bodies_near(integration.state(), near);
-        let ends = [(start, near), (end, &bodies)];
-        let bends = integration.estimate().map_or(&FIXED, |_| &CONTROLLED);
-        let by = (self.passing.longest, bends);
-        let mut judged = judged::<S, M>(self.dynamics.constants(), ends, by);
-        if judged.turns.is_none() && !judged.is_far && self.passing.last.is_some() {
-            judged.turns = self.misses([(start, near), (end, &bodies)]);
-        }
-        let is_near = judged.turns.is_some() || self.passing.limit.is_some();
-        let size = if is_near {
-            self.places(&bodies)
-        } else {
-            S::zero()
-        };
-        let taken = self.passing.takes(&judged, (start, end), size);
-        taken.map_err(|place| holds::<S, M>(place, end))
-    }
-
-    /// The place of a length that may have passed through zero twice in a step: it ends far, by the
-    /// distance there, from where the velocities at the start lead. Only after a first passage, which
-    /// no step contains twice.
-    fn misses(&self, [(start, near), (end, bodies)]: [(S, &M::State<S>); 2]) -> Option<usize> {
-        let constants = self.dynamics.constants();
-        let rates = M::coordinate_rates(constants, near);
-        let rates = M::State::from_parts(rates, Array::zeros());
-        let ahead = near.plus([(end - start, &rates)]);
-        let mut missed = None;
-        M::separations(constants, [(end, &ahead), (end, bodies)], &mut |place,
-                                                                        [
-            ahead,
-            there,
-        ]| {
-            let off = minus(&there, &ahead);
-            if dot(&off, &off) > S::constant(CLOSE) * dot(&there, &there) {
-                missed = Some(place);
-            }
-        });
-        missed
-    }
-
-    /// How large places are, of bodies here and where they were described.
-    fn places(&self, bodies: &M::State<S>) -> S {
-        let described = M::initial_state(self.dynamics.constants());
-        let all = [bodies, &described].map(|state| largest(state.coordinates().as_slice()));
-        all[0].max(all[1])
-    }
-
-    /// Whether a step that has failed, of so many seconds at the most, is tried again, shorter: by
-    /// their velocities two points meet within it.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn tries_again(&mut self, (time, state): (S, &M::State<S>), step: S) -> bool {
-        let step = self.passing.limit.unwrap_or(step).min(step);
-        if M::SEPARATIONS.is_empty() {
-            return false;
-        }
-        let constants = self.dynamics.constants();
-        let rates = M::coordinate_rates(constants, state);
-        let rates = M::State::from_parts(rates, Array::zeros());
-        let end = time + S::constant(2.0) * step;
-        let later = state.plus([(end - time, &rates)]);
-        let ends = [(time, state), (end, &later)];
-        let judged = judged::<S, M>(constants, ends, (self.passing.longest, &FIXED));
-        let Some(place) = judged.turns else {
-            return false;
-        };
-        let size = self.places(state);
-        let least = self.passing.least_of(&judged, (time, end), size);
-        let across = S::constant(ACROSS) * least;
-        let next = (judged.from_start * (end - time)).min(S::constant(0.5) * step);
-        // It has failed though it was across.
-        if step <= across && self.passing.limit.is_some() {
-            return false;
-        }
-        self.passing.plan(next, least, place);
-        self.passing.refuse(time)
-    }
-
-    /// Goes across a length of zero by the velocities, up to a time (s) at the most; whether that
-    /// was planned. No method can: its stages would meet the zero.
-    pub(super) fn goes_across(
-        &mut self,
-        (time, state): &mut (S, M::State<S>),
-        until: S,
-    ) -> Result<bool, Fault> {
-        let Some(step) = self.passing.across.take() else {
-            return Ok(false);
-        };
-        self.passing.next = self.passing.limit.take();
-        let end = until.min(*time + step);
-        let rates = M::coordinate_rates(self.dynamics.constants(), state);
-        let rates = M::State::from_parts(rates, Array::zeros());
-        *state = state.plus([(end - *time, &rates)]);
-        *time = end;
-        self.log.unseen += 1;
-        let counted = self.passing.count(end, self.passing.place);
-        counted.map_err(|place| holds::<S, M>(place, end))?;
-        Ok(true)
-    }
-
-    /// Leaves a length that is exactly zero on the way of the motion, as little as can be told: its
-    /// direction is then that way. One at rest at zero has none, and keeps none.
-    pub(super) fn leave_zeros(&mut self, (time, state): &mut (S, M::State<S>), left: S) {
-        if M::SEPARATIONS.is_empty() {
-            return;
-        }
-        let constants = self.dynamics.constants();
-        let mut is_zero = false;
-        let ends = [(*time, &*state); 2];
-        M::separations(constants, ends, &mut |_, [at, _]| {
-            is_zero |= dot(&at, &at) <= S::zero();
-        });
-        if is_zero {
-            let longest = self.passing.longest;
-            let step = if longest > S::zero() { longest } else { left };
-            let rates = M::coordinate_rates(constants, state);
-            let rates = M::State::from_parts(rates, Array::zeros());
-            let (end, later) = (*time + step, state.plus([(step, &rates)]));
-            let ends = [(*time, &*state), (end, &later)];
-            let judged = judged::<S, M>(constants, ends, (longest, &FIXED));
-            let size = self.places(state);
-            let least = self.passing.least_of(&judged, (*time, end), size);
-            *state = state.plus([(least.min(step), &rates)]);
-        }
-    }
-}
-
-/// A force that leads its points together again and again.
-#[cold]
-fn holds<S: Real, M: Mechanism>(place: usize, time: S) -> Fault {
-    Fault::SlidingLaw {
-        law: M::SEPARATIONS.get(place).copied().unwrap_or_default(),
-        expression: "length",
-        time: time.to_f64(),
-    }
 }

@@ -1,8 +1,8 @@
 //! Lengths at whose zero a force turns round: it acts along a direction, and has a size there.
 //!
-//! A length is a root of squares. As it passes through zero, its direction turns round. A force along
-//! it jumps, unless its size vanishes with the length, or is odd in the rate as a damper's is. What
-//! is without bound at zero, such as gravitation, is a pole and no jump.
+//! A length is a root of squares. As it passes through zero, its direction turns round. A force
+//! along it jumps, unless its size vanishes with the length, or is odd in the rate as that of a
+//! damper. What is without bound at zero, such as gravitation, is a pole and no jump.
 
 use super::arena::{Arena, Expr, Input};
 use super::bind::Effect;

@@ -1,0 +1,183 @@
+//! What a run does where lengths pass through zero: see `passing.rs`.
+
+use crate::constraints::extent::largest;
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::Integration;
+use crate::math::scalar::Real;
+use crate::math::vec3::minus;
+use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::run::passing::{ACROSS, CLOSE, CONTROLLED, FIXED, dot, judged};
+use crate::run::segments::Run;
+use crate::state::vector::{Array, StateParts as _, Vector as _};
+
+impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// Whether the last step is taken, which began at a time where the bodies stood near by: no
+    /// direction of a force has turned round in it.
+    #[inline]
+    pub(super) fn is_taken<K: Integration<S, C::State<S>>>(
+        &mut self,
+        integration: &K,
+        start: (S, &M::State<S>),
+    ) -> Result<bool, Fault> {
+        if M::SEPARATIONS.is_empty() {
+            return Ok(true);
+        }
+        if self.passing.skipped > 0 {
+            self.passing.skipped -= 1;
+            return Ok(true);
+        }
+        self.look_for_passages(integration, start)
+    }
+
+    #[inline(never)]
+    fn look_for_passages<K: Integration<S, C::State<S>>>(
+        &mut self,
+        integration: &K,
+        (start, near): (S, &M::State<S>),
+    ) -> Result<bool, Fault> {
+        let end = integration.time();
+        let bodies = self.dynamics.bodies_near(integration.state(), near);
+        let ends = [(start, near), (end, &bodies)];
+        let bends = integration.estimate().map_or(&FIXED, |_| &CONTROLLED);
+        let by = (self.passing.longest, bends);
+        let mut judged = judged::<S, M>(self.dynamics.constants(), ends, by);
+        if judged.turns.is_none() && !judged.is_far && self.passing.last.is_some() {
+            judged.turns = self.misses([(start, near), (end, &bodies)]);
+        }
+        let is_near = judged.turns.is_some() || self.passing.limit.is_some();
+        let size = if is_near {
+            self.places(&bodies)
+        } else {
+            S::zero()
+        };
+        let taken = self.passing.takes(&judged, (start, end), size);
+        taken.map_err(|place| holds::<S, M>(place, end))
+    }
+
+    /// The place of a length that may have passed through zero twice in a step: it ends far, by the
+    /// distance there, from where the velocities at the start lead. Asked after a first passage.
+    fn misses(&self, [(start, near), (end, bodies)]: [(S, &M::State<S>); 2]) -> Option<usize> {
+        let constants = self.dynamics.constants();
+        let rates = M::coordinate_rates(constants, near);
+        let rates = M::State::from_parts(rates, Array::zeros());
+        let ahead = near.plus([(end - start, &rates)]);
+        let mut missed = None;
+        M::separations(constants, [(end, &ahead), (end, bodies)], &mut |place,
+                                                                        [
+            ahead,
+            there,
+        ]| {
+            let off = minus(&there, &ahead);
+            if dot(&off, &off) > S::constant(CLOSE) * dot(&there, &there) {
+                missed = Some(place);
+            }
+        });
+        missed
+    }
+
+    /// How large places are, of bodies here and where they were described.
+    fn places(&self, bodies: &M::State<S>) -> S {
+        let described = M::initial_state(self.dynamics.constants());
+        let all = [bodies, &described].map(|state| largest(state.coordinates().as_slice()));
+        all[0].max(all[1])
+    }
+
+    /// Whether a step that has failed, of so many seconds at the most, is tried again, shorter: by
+    /// their velocities two points meet within it.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn tries_again(&mut self, (time, state): (S, &M::State<S>), step: S) -> bool {
+        let step = self.passing.limit.unwrap_or(step).min(step);
+        if M::SEPARATIONS.is_empty() {
+            return false;
+        }
+        let constants = self.dynamics.constants();
+        let rates = M::coordinate_rates(constants, state);
+        let rates = M::State::from_parts(rates, Array::zeros());
+        let end = time + S::constant(2.0) * step;
+        let later = state.plus([(end - time, &rates)]);
+        let ends = [(time, state), (end, &later)];
+        let judged = judged::<S, M>(constants, ends, (self.passing.longest, &FIXED));
+        let Some(place) = judged.turns else {
+            return false;
+        };
+        let size = self.places(state);
+        let least = self.passing.least_of(&judged, (time, end), size);
+        let across = S::constant(ACROSS) * least;
+        let next = (judged.from_start * (end - time)).min(S::constant(0.5) * step);
+        // It has failed though it was across.
+        if step <= across && self.passing.limit.is_some() {
+            return false;
+        }
+        self.passing.plan(next, least, place);
+        self.passing.refuse(time)
+    }
+
+    /// Goes across a length of zero by the velocities, up to a time (s) at the most; whether that
+    /// was planned. No method can: its stages would meet the zero.
+    pub(super) fn goes_across(
+        &mut self,
+        (time, state): &mut (S, M::State<S>),
+        until: S,
+    ) -> Result<bool, Fault> {
+        let Some(step) = self.passing.across.take() else {
+            return Ok(false);
+        };
+        self.passing.next = self.passing.limit.take();
+        let end = until.min(*time + step);
+        let rates = M::coordinate_rates(self.dynamics.constants(), state);
+        let rates = M::State::from_parts(rates, Array::zeros());
+        *state = state.plus([(end - *time, &rates)]);
+        *time = end;
+        self.log.unseen += 1;
+        let counted = self.passing.count(end, self.passing.place);
+        counted.map_err(|place| holds::<S, M>(place, end))?;
+        Ok(true)
+    }
+
+    /// Leaves a length that is exactly zero on the way of the motion, as little as can be told: its
+    /// direction is then that way. One at rest at zero has none, and keeps none.
+    pub(super) fn leave_zeros(&mut self, (time, state): &mut (S, M::State<S>), left: S) {
+        if M::SEPARATIONS.is_empty() {
+            return;
+        }
+        let constants = self.dynamics.constants();
+        let mut is_zero = false;
+        let ends = [(*time, &*state); 2];
+        M::separations(constants, ends, &mut |_, [at, _]| {
+            is_zero |= dot(&at, &at) <= S::zero();
+        });
+        if is_zero {
+            let longest = self.passing.longest;
+            let step = if longest > S::zero() { longest } else { left };
+            let rates = M::coordinate_rates(constants, state);
+            let rates = M::State::from_parts(rates, Array::zeros());
+            let (end, later) = (*time + step, state.plus([(step, &rates)]));
+            let ends = [(*time, &*state), (end, &later)];
+            let judged = judged::<S, M>(constants, ends, (longest, &FIXED));
+            let size = self.places(state);
+            let least = self.passing.least_of(&judged, (*time, end), size);
+            *state = state.plus([(least.min(step), &rates)]);
+        }
+    }
+}
+
+/// A force that leads its points together again and again.
+#[cold]
+fn holds<S: Real, M: Mechanism>(place: usize, time: S) -> Fault {
+    Fault::SlidingLaw {
+        law: M::SEPARATIONS.get(place).copied().unwrap_or_default(),
+        expression: "length",
+        time: time.to_f64(),
+    }
+}
