@@ -188,7 +188,7 @@ fn no_mass_is_negative() -> Result<(), Fault> {
             other.set_value(h.crank_mass, mass)?;
             Ok(other.bias(&aside)?[0])
         });
-        let [one, two] = [moments[0].clone()?, moments[1].clone()?];
+        let [one, two] = [moments[0]?, moments[1]?];
         let balance = 1.0 - one / (two - one);
         let found = space.trim(&aside, [h.foot], [h.crank_mass]);
         if balance > 0.0 {

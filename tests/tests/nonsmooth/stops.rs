@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use holonom::measure::{Interacting, NoForces};
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::run::{InteractionMode as Mode, JointQuantity};
+use holonom::run::{Beside, InteractionMode as Mode, JointQuantity};
 use holonom::{Adams, DormandPrince853, Formulation, RadauIIA, Runs};
 
 use super::{GRAVITY, Moves, assert_times, reference, tight};
@@ -67,7 +67,7 @@ fn bounces<M, I, C>(
     end: f64,
 ) -> (Vec<f64>, Mode, f64)
 where
-    M: Mechanism + Default,
+    M: Beside<1, 1> + Default,
     C: Coordinates<M>,
     I: Moves<M, C, 1>,
 {

@@ -7,10 +7,9 @@
 use holonom::prelude::*;
 use holonom::{
     Heun, Midpoint, SemiImplicitEuler, StateParts, Stepper,
-    dynamics::Dynamics,
     integrate::{BogackiShampine3, DormandPrince5, OneStep, SecondOrder, System},
-    measure::NoForces,
     mechanism::{Absolute, Relative},
+    run,
 };
 
 use super::difference;
@@ -153,19 +152,18 @@ fn euler_parameters(state: &<Free as Mechanism>::State<f64>) -> [f64; 4] {
     core::array::from_fn(|k| coordinates[3 + k])
 }
 
-/// The equations of the body in some coordinates.
-type OfTheBody<C> = Dynamics<f64, Free, StandardLagrange, NoForces, C>;
-
 /// Methods that move all of these.
 trait Steps:
-    OneStep<f64, Turning> + OneStep<f64, OfTheBody<Absolute>> + OneStep<f64, OfTheBody<Relative>>
+    OneStep<f64, Turning>
+    + run::Steps<f64, Free, StandardLagrange, Absolute>
+    + run::Steps<f64, Free, StandardLagrange, Relative>
 {
 }
 
 impl<K> Steps for K where
     K: OneStep<f64, Turning>
-        + OneStep<f64, OfTheBody<Absolute>>
-        + OneStep<f64, OfTheBody<Relative>>
+        + run::Steps<f64, Free, StandardLagrange, Absolute>
+        + run::Steps<f64, Free, StandardLagrange, Relative>
 {
 }
 
@@ -180,7 +178,7 @@ fn of_a_system<K: OneStep<f64, Turning>>(scheme: K, axis: [f64; 3], speed: f64) 
     p
 }
 
-fn of_a_body<K: OneStep<f64, OfTheBody<Absolute>>>(
+fn of_a_body<K: run::Steps<f64, Free, StandardLagrange, Absolute>>(
     scheme: K,
     axis: [f64; 3],
     speed: f64,
@@ -195,7 +193,7 @@ fn of_a_body<K: OneStep<f64, OfTheBody<Absolute>>>(
     euler_parameters(&state)
 }
 
-fn of_a_ball<K: OneStep<f64, OfTheBody<Relative>>>(
+fn of_a_ball<K: run::Steps<f64, Free, StandardLagrange, Relative>>(
     scheme: K,
     axis: [f64; 3],
     speed: f64,

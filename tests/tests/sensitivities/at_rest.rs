@@ -2,11 +2,23 @@
 
 use holonom::independent::Direction;
 use holonom::integrate::Method;
+use holonom::measure::{NoForces, Unlimited};
 use holonom::prelude::*;
 use holonom::sensitivity::Differentiable;
 use holonom::{Adams, BogackiShampine, DormandPrince853, Forward, Runs, Warning, Warnings};
 
 use super::refused::Rod;
+
+/// Methods that move a mechanism with derivatives.
+trait Moves<M: Mechanism>:
+    Runs<Forward<f64, 3>, M, StandardLagrange, M::Coordinates, Unlimited<NoForces>>
+{
+}
+
+impl<I, M: Mechanism> Moves<M> for I where
+    I: Runs<Forward<f64, 3>, M, StandardLagrange, M::Coordinates, Unlimited<NoForces>>
+{
+}
 
 type Found = Result<f64, Box<dyn std::error::Error>>;
 
@@ -15,7 +27,7 @@ type Found = Result<f64, Box<dyn std::error::Error>>;
 fn worst<I>(method: I, swings: bool) -> Found
 where
     I: Differentiable<f64, 3>,
-    I::Carrying: Method<Forward<f64, 3>> + Runs<Forward<f64, 3>, Rod, StandardLagrange>,
+    I::Carrying: Method<Forward<f64, 3>> + Moves<Rod>,
 {
     const END: f64 = 10.0;
     let (rod, h) = (Rod::new(1.0)?, Rod::HANDLES);

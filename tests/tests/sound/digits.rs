@@ -27,6 +27,7 @@ fn a_tolerance_below_the_digits_of_a_position_is_named() {
         });
         Simulation::new(&far, method, ode45)
             .run(0.0..=10.0, every(0.1), |_| ControlFlow::Continue(()))
+            .map_err(Box::new)
     };
     let error = run(1e-9).expect_err("below what the digits tell");
     println!("{error}");
