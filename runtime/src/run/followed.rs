@@ -2,7 +2,9 @@
 //!
 //! Between two instants an angle turns by the mean of both rates, and by half of their difference
 //! more or less as long as the rate between is between them. So instants whose rates differ little
-//! tell the turns, however many there are. Where they differ more, the step is halved.
+//! tell the turns, however many there are. Where they differ more, the step is halved. A step whose
+//! rates differ by many turns resolves no motion but a smooth one, of which Simpson's rule tells
+//! them.
 
 use core::ops::Deref;
 
@@ -14,9 +16,10 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::turns;
 
-/// Instants are at least so many units in the last place apart.
-const LEAST: f64 = 4.0;
+/// So many instants at most are looked at, one after the other.
+const LOOKS: usize = 32;
 
 /// The bodies at a time (s) within the last step of an integration, or at its end, which stood near
 /// by at another one.
@@ -75,7 +78,7 @@ where
     C: Coordinates<M>,
 {
     let (mut near, mut next) = (*near, time);
-    loop {
+    for _ in 0..LOOKS {
         let state = at(&mut dynamics, next)?;
         let (bodies, is_known) = dynamics.bodies_after(&state, (next - before, &near));
         if is_known && next == time {
@@ -83,15 +86,14 @@ where
         }
         if is_known {
             (before, near, next) = (next, bodies, time);
-            continue;
+        } else {
+            next = S::constant(0.5).fused(next - before, before);
         }
-        let step = S::constant(0.5) * (next - before);
-        if step <= S::constant(LEAST) * time.ulp() {
-            return Err(Fault::StepTooShort {
-                step: step.to_f64(),
-                time: before.to_f64(),
-            });
-        }
-        next = before + step;
     }
+    let middle = at(&mut dynamics, S::constant(0.5).fused(time - before, before))?;
+    let end = at(&mut dynamics, time)?;
+    let [middle, mut bodies] = [middle, end].map(|state| dynamics.bodies_near(&state, &near));
+    let constants = dynamics.constants();
+    turns::count_through::<S, M>(constants, [&near, &middle], time - before, &mut bodies);
+    Ok(bodies)
 }
