@@ -132,7 +132,14 @@ fn a_state_that_a_handler_sets_is_checked_as_a_start() {
         .run(0.0..=3.0, every(0.1), |_| ())
         .expect_err("it opens the rail");
     assert!(
-        matches!(error.fault, Fault::InconsistentStart { joint: "rail", .. }),
+        matches!(
+            error.fault,
+            Fault::HandlerOpens {
+                event: "floor",
+                joint: "rail",
+                ..
+            }
+        ),
         "{error}"
     );
     assert!((error.time - (2.0 / GRAVITY).sqrt()).abs() < 1e-12);
