@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::elimination::Elimination;
-use super::states::write_rates;
+use super::partition::write_rates;
 use super::{Equations, IndependentCoordinates};
 use crate::error::Fault;
 use crate::math::scalar::Real;

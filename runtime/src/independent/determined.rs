@@ -9,8 +9,7 @@
 //! far off as `Phi` cannot tell.
 
 use super::elimination::{Pivot, at};
-use super::partition::{Partition, Standing, joint_rates};
-use super::states::{put_velocities, write_rates};
+use super::partition::{Partition, Standing, joint_rates, put_velocities, write_rates};
 use super::{Equations, IndependentCoordinates};
 use crate::constraints::row_units::characteristic_length;
 use crate::constraints::rows::Rows;

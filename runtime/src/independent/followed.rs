@@ -8,7 +8,7 @@
 use nalgebra::SVector;
 
 use super::balance::longest;
-use super::states::write_rates;
+use super::partition::write_rates;
 use super::{Equations, IndependentCoordinates};
 use crate::error::Fault;
 use crate::math::scalar::Real;

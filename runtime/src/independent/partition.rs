@@ -6,7 +6,7 @@ use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_kernels::Freedom;
 use crate::mechanism::joint_rates::JointRates;
-use crate::state::vector::Array;
+use crate::state::vector::{Array, MovingState as _};
 
 /// `w = B z + d` and `w' = B z' + b`.
 pub(super) struct Partition<M: JointRates, const N: usize, S: Scalar> {
@@ -185,7 +185,6 @@ fn largest_share<M: JointRates, S: Real>(
 pub(super) fn joint_rates<M: JointRates, S: Scalar>(
     state: &M::JointState<S>,
 ) -> M::JointVelocities<S> {
-    use crate::state::vector::MovingState as _;
     let velocities = state.rates_slice();
     let mut rates = M::JointVelocities::<S>::zeros();
     for (place, rate) in rates.as_mut_slice().iter_mut().enumerate() {
@@ -207,9 +206,7 @@ pub(super) fn joint_rates<M: JointRates, S: Scalar>(
 }
 
 /// The velocities of a state whose joints have these rates.
-pub(super) fn velocities<M: JointRates, S: Scalar>(
-    rates: &M::JointVelocities<S>,
-) -> M::JointVelocities<S> {
+fn velocities<M: JointRates, S: Scalar>(rates: &M::JointVelocities<S>) -> M::JointVelocities<S> {
     let mut velocities = *rates;
     // What carries a motion stands before it.
     for motion in M::JOINT_REPORT.motions {
@@ -226,4 +223,33 @@ pub(super) fn velocities<M: JointRates, S: Scalar>(
         }
     }
     velocities
+}
+
+/// Writes the velocities of a state that belong to chosen rates; with those of drivers, if wanted.
+pub(super) fn write_rates<M: JointRates, const N: usize, S: Scalar>(
+    partition: &Partition<M, N, S>,
+    rates: &[S; N],
+    are_driven: bool,
+    state: &mut M::JointState<S>,
+) {
+    let mut all = M::JointVelocities::<S>::zeros();
+    if are_driven {
+        all = partition.drift;
+    }
+    for (column, &rate) in partition.columns.iter().zip(rates) {
+        let places = all.as_mut_slice().iter_mut().zip(column.as_slice());
+        places.for_each(|(place, &entry)| *place = entry.fused(rate, *place));
+    }
+    put_velocities::<M, S>(&all, state);
+}
+
+/// Writes the velocities of a state whose joints have these rates.
+pub(super) fn put_velocities<M: JointRates, S: Scalar>(
+    rates: &M::JointVelocities<S>,
+    state: &mut M::JointState<S>,
+) {
+    let velocities = velocities::<M, S>(rates);
+    for (place, velocity) in state.rates_slice_mut().iter_mut().enumerate() {
+        *velocity = at(velocities.as_slice(), place);
+    }
 }

@@ -5,13 +5,13 @@ use core::f64::consts::TAU;
 use nalgebra::SVector;
 
 use super::determined::Needs;
-use super::elimination::{at, set};
-use super::partition::{Partition, velocities};
+use super::elimination::set;
+use super::partition::{Partition, put_velocities, write_rates};
 use super::{Equations, IndependentCoordinates};
 use crate::assembly::assembled;
 use crate::constraints::projection::Projection;
 use crate::error::Fault;
-use crate::math::scalar::{Real, Scalar};
+use crate::math::scalar::Real;
 use crate::mechanism::joint_kernels::{Freedom, JointMotion};
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::relative::{bodies_of, joint_state_of, rates_of_motion};
@@ -336,35 +336,6 @@ fn given<S: Real, const N: usize>(numbers: [S; N]) -> Result<SVector<S, N>, Faul
         Ok(SVector::from(numbers))
     } else {
         Err(Fault::StateNotFinite)
-    }
-}
-
-/// Writes the velocities of a state that belong to chosen rates; with those of drivers, if wanted.
-pub(super) fn write_rates<M: JointRates, const N: usize, S: Scalar>(
-    partition: &Partition<M, N, S>,
-    rates: &[S; N],
-    are_driven: bool,
-    state: &mut M::JointState<S>,
-) {
-    let mut all = M::JointVelocities::<S>::zeros();
-    if are_driven {
-        all = partition.drift;
-    }
-    for (column, &rate) in partition.columns.iter().zip(rates) {
-        let places = all.as_mut_slice().iter_mut().zip(column.as_slice());
-        places.for_each(|(place, &entry)| *place = entry.fused(rate, *place));
-    }
-    put_velocities::<M, S>(&all, state);
-}
-
-/// Writes the velocities of a state whose joints have these rates.
-pub(super) fn put_velocities<M: JointRates, S: Scalar>(
-    rates: &M::JointVelocities<S>,
-    state: &mut M::JointState<S>,
-) {
-    let velocities = velocities::<M, S>(rates);
-    for (place, velocity) in state.rates_slice_mut().iter_mut().enumerate() {
-        *velocity = at(velocities.as_slice(), place);
     }
 }
 
