@@ -81,7 +81,8 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         self.state_from(&from, false, positions.into().into(), rates.into().into())
     }
 
-    /// The same on the branch of another state, by the nearest turns.
+    /// The same on the branch of another state, by the nearest turns: of an angle and those that
+    /// differ from it by whole turns, the one is taken that is nearest to the other state's.
     ///
     /// # Errors
     /// As [`IndependentCoordinates::state`].

@@ -283,7 +283,7 @@ impl<S: Real> Status<S> {
     /// Goes on with the last reading, by which the mode does not end.
     pub(crate) fn go_on(&mut self) {
         self.has_left |= self.reading > self.band;
-        if self.mode == InteractionMode::Free {
+        if self.mode == InteractionMode::Free && self.reading.is_finite() {
             self.farthest = self.farthest.max(self.reading);
         }
     }

@@ -1,5 +1,6 @@
 //! What a run knows of the cause of a fault.
 
+use crate::constraints::row_units::characteristic_length;
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::Method;
@@ -44,16 +45,21 @@ where
                 rate: rate.to_f64(),
             };
         }
+        let (constants, state) = (self.dynamics.constants(), &last_good.1);
         // A step in which something turns by radians, or moves by lengths of the mechanism, is too
         // long whatever came of it: pivots of such numbers may vanish, too.
         let turned = match fault {
             Fault::Singular { .. } => Some(BEYOND),
-            Fault::NotConverged { .. } | Fault::ZeroOrientation { .. } => {
-                self.gone.is_some().then_some(1.0)
+            Fault::ZeroOrientation { .. } => self.gone.is_some().then_some(1.0),
+            // Near a configuration out of reach rates are large, and what is open is little.
+            Fault::NotConverged { residual, .. } => {
+                let length = characteristic_length::<S, M>(constants, state);
+                let is_far = exceeds(S::constant(residual), length.to_f64());
+                let turned = if is_far { 1.0 } else { BEYOND };
+                self.gone.is_some().then_some(turned)
             }
             _ => not_finite.then_some(1.0),
         };
-        let (constants, state) = (self.dynamics.constants(), &last_good.1);
         let rate = fastest::<S, M>(constants, state);
         let rate = self.gone.map_or(rate, |gone| rate.max(gone));
         if let (Some(turned), Some(step)) = (turned, integrator.fixed_step())

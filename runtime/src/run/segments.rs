@@ -531,13 +531,15 @@ where
         &mut self,
         stabilisation: &dyn PostStabilisation<S, M>,
         time: S,
-        mut state: M::State<S>,
+        reached: M::State<S>,
     ) -> Result<M::State<S>, Fault> {
         let constants = self.dynamics.constants();
+        let mut state = reached;
         let residual = match stabilisation.stabilise(constants, time, &mut state) {
             Ok(residual) => residual,
             Err(fault) => {
-                self.gone = Some(fastest::<S, M>(constants, &state));
+                // A correction that fails may leave any velocities.
+                self.gone = Some(fastest::<S, M>(constants, &reached));
                 return Err(fault);
             }
         };

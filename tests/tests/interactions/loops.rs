@@ -148,10 +148,17 @@ fn a_driver_that_pushes_against_a_stop_is_refused() {
             .interactions([stop.restitution(restitution)])
             .run(0.0..=1.0, every(0.1), |_| ())
             .expect_err("nothing stops the belt");
-        let Fault::NoMode { joint, time } = error.fault else {
+        let Fault::DrivenAgainst {
+            joint,
+            driver,
+            limit,
+            time,
+        } = error.fault
+        else {
             panic!("{error}");
         };
-        assert!(joint == "rollers" && (time - 0.5).abs() < 1e-9, "{error}");
+        assert_eq!((joint, driver, limit), ("rollers", "motor", 0.5));
+        assert!((time - 0.5).abs() < 1e-9, "{error}");
     }
     for restitution in [0.0, 0.5] {
         pushes::<Relative>(restitution);

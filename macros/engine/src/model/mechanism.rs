@@ -10,7 +10,7 @@ use super::joint::{ElementDef, Term, Turn};
 use super::law::{LawTerm, Switch};
 use super::name::Name;
 use super::number::{Number, Symbol, literals};
-use super::rank::Independence;
+use super::rank::{Components, Independence};
 use super::shape::Shape;
 use super::value::{RunTimeValue, Spline, first_further};
 
@@ -109,15 +109,6 @@ pub struct Element {
     pub read: Vec<Term>,
     /// Its limits, where it has some.
     pub limits: Option<Limits>,
-}
-
-/// Three directions at right angles, fixed on a body, along which a vector equation is split.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Components {
-    /// The place of the body among those of the joint.
-    pub place: usize,
-    /// The directions in principal axes of the body.
-    pub axes: [[f64; 3]; 3],
 }
 
 impl Element {

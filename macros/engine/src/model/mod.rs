@@ -25,12 +25,11 @@ pub use joint::{
 };
 pub use law::{LawTerm, Switch, Switching};
 pub use mechanism::{
-    Binding, Body, BodyKind, Components, Coordinates, Element, Limits, Model, NamedPoint, Part,
-    UserState,
+    Binding, Body, BodyKind, Coordinates, Element, Limits, Model, NamedPoint, Part, UserState,
 };
 pub use motion::{Direction, Motion};
 pub use name::Name;
 pub use number::{Number, Symbol};
-pub use rank::{Contradiction, Independence, Rank, Redundant, RedundantRow};
+pub use rank::{Components, Contradiction, Independence, Rank, Redundant, RedundantRow};
 pub use shape::{Shape, ShapeKind};
 pub use value::{RunTimeValue, Spline, Table, ValueKind, first_further};

@@ -1,7 +1,5 @@
 //! What is known about the rank of the constraints.
 
-use super::mechanism::Components;
-
 /// What a mechanism asks for where equations depend on each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Redundant {
@@ -116,4 +114,13 @@ impl Independence {
         };
         velocities.cast_signed() - bound.cast_signed()
     }
+}
+
+/// Three directions at right angles, fixed on a body, along which a vector equation is split.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Components {
+    /// The place of the body among those of the joint.
+    pub place: usize,
+    /// The directions in principal axes of the body.
+    pub axes: [[f64; 3]; 3],
 }
