@@ -171,8 +171,8 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         })
     }
 
-    /// Goes on to the last digits at the end of the way, where what was set is kept: a correction by
-    /// the least movement in the metric of the mass would move the lightest body of all.
+    /// Goes on to the last digits at the end of the way, where what was set is kept: a correction
+    /// by the least movement in the metric of the mass would move the lightest body of all.
     fn close(&mut self) {
         let mut last = S::constant(SMALL).max(S::EPSILON.sqrt());
         for _ in 0..CORRECTIONS {

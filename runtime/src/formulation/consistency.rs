@@ -6,7 +6,8 @@ use crate::state::vector::Array;
 
 /// The row whose accelerations are farthest from `D u' = gamma*`, and how far: relative to the sum
 /// of the sizes of its terms, `|D| |u'|`, `|D| M^-1 |g|` (what applied forces would do without
-/// constraints), `|D|` times accelerations that it is seen beside, and `|gamma*|`. Zero where all are met, about one where a constraint does nothing.
+/// constraints), `|D|` times accelerations that it is seen beside, and `|gamma*|`. Zero where all
+/// are met, about one where a constraint does nothing.
 pub(crate) fn inconsistency<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     (time, state): (S, &M::State<S>),

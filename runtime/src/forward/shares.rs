@@ -1,11 +1,12 @@
 //! What a step control allows of the errors of derivatives.
 //!
-//! As CVODES has it (Serban and Hindmarsh, *CVODES: the sensitivity-enabled ODE solver in SUNDIALS*,
-//! 2005): a derivative is held to the relative tolerance of values, and to their absolute one over
-//! the scale of its direction, a change that counts. Two things are added. A scale is at most one
-//! over the largest derivative, so that where a parameter is far from what it is to be, as a stiff
-//! spring that an input stretches, its derivatives keep their digits. And errors of round-off are
-//! none: where what counts cancels, a control would make steps shorter in vain.
+//! As CVODES has it (Serban and Hindmarsh, *CVODES: the sensitivity-enabled ODE solver in
+//! SUNDIALS*, 2005): a derivative is held to the relative tolerance of values, and to their
+//! absolute one over the scale of its direction, a change that counts. Two things are added. A
+//! scale is at most one over the largest derivative, so that where a parameter is far from what it
+//! is to be, as a stiff spring that an input stretches, its derivatives keep their digits. And
+//! errors of round-off are none: where what counts cancels, a control would make steps shorter in
+//! vain.
 
 use core::array::from_fn;
 

@@ -27,8 +27,9 @@ const CORRECTIONS: usize = 25;
 
 impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// The coordinates (rad, m) at a state, zero in the reference configuration: the angle of a
-    /// joint over all turns that the state has counted, as [`View::angle`](crate::View::angle) reads
-    /// it. An angle of a joint that has several, such as a universal joint, is from `-pi` to `pi`.
+    /// joint over all turns that the state has counted, as [`View::angle`](crate::View::angle)
+    /// reads it. An angle of a joint that has several, such as a universal joint, is from `-pi` to
+    /// `pi`.
     ///
     /// # Errors
     /// [`Fault::NoPosition`] for a chosen component of an angular velocity, which is the rate of no

@@ -60,8 +60,8 @@ where
     ///
     /// # Errors
     /// - [`Fault::NotChosen`], [`Fault::ChosenTwice`]: no coordinate is held, or one twice.
-    /// - [`Fault::Parameter`]: it would be held by a parameter that no mechanism can have, such as a
-    ///   negative mass.
+    /// - [`Fault::Parameter`]: it would be held by a parameter that no mechanism can have, such as
+    ///   a negative mass.
     /// - [`Fault::NoEffect`]: a quantity that moves nothing which the other unknowns do not.
     /// - [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2).
     /// - What [`IndependentCoordinates::equilibrium`] refuses.

@@ -395,10 +395,11 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         self.with_friction("stiction", |friction| friction.stiction = Some(capacity))
     }
 
-    /// With [`Interaction::stiction`]: the rate `v0` (rad/s, m/s) by which friction falls from that of [`Interaction::stiction`] to
-    /// that of sliding: `capacity + (stiction - capacity) exp(-(rate / v0)^2)` (Stribeck's curve;
-    /// Armstrong-Helouvry, Dupont and Canudas de Wit, *A survey of models, analysis tools and
-    /// compensation methods for the control of machines with friction*, 1994).
+    /// With [`Interaction::stiction`]: the rate `v0` (rad/s, m/s) by which friction falls from that
+    /// of [`Interaction::stiction`] to that of sliding: `capacity + (stiction - capacity)
+    /// exp(-(rate / v0)^2)` (Stribeck's curve; Armstrong-Helouvry, Dupont and Canudas de Wit, *A
+    /// survey of models, analysis tools and compensation methods for the control of machines with
+    /// friction*, 1994).
     #[must_use]
     pub fn stribeck(self, rate: S) -> Self {
         self.with_friction("stribeck", |friction| friction.stribeck = Some(rate))

@@ -79,8 +79,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// As [`Stepper::step`], and [`Fault::LimitsLeftOut`] of limits and other interactions. State and
-    /// time are then as before.
+    /// As [`Stepper::step`], and [`Fault::LimitsLeftOut`] of limits and other interactions. State
+    /// and time are then as before.
     pub fn step_dense(
         &mut self,
         state: &mut C::State<S>,

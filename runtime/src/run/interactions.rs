@@ -100,7 +100,8 @@ where
     ///
     /// let (rod, h) = (Rod::default(), Rod::HANDLES);
     /// let simulation = rod.simulation(StandardLagrange, DormandPrince::default());
-    /// let lowest = |report: &RunReport<f64, Rod>| rod.view(1.0, &report.state).map(|v| v.angle(h.hinge));
+    /// let lowest =
+    ///     |report: &RunReport<f64, Rod>| rod.view(1.0, &report.state).map(|v| v.angle(h.hinge));
     /// let stopped = simulation.clone().run(0.0..=0.7, every(0.1), |_| ())?;
     /// let free = simulation.without_limits().run(0.0..=0.7, every(0.1), |_| ())?;
     /// assert!(lowest(&stopped)? > -1.0 - 1e-9 && lowest(&free)? < -1.5);

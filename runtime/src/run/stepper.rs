@@ -276,8 +276,8 @@ where
         self.clock.time()
     }
 
-    /// Takes the present inputs and parameters of the mechanism, to be called between steps, and the
-    /// limits of the description that depend on them.
+    /// Takes the present inputs and parameters of the mechanism, to be called between steps, and
+    /// the limits of the description that depend on them.
     ///
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.

@@ -1,9 +1,9 @@
 //! Runs whose numbers carry derivatives: how what is read changes with parameters, inputs and the
 //! start (forward sensitivities).
 //!
-//! A run over [`Forward`] numbers is the plain run, but for the choice of its steps. Numbers are ordered by their
-//! values. The steps of a control are no functions of what they were chosen by, and are held to a
-//! tolerance of values and derivatives together (`forward/shares.rs`).
+//! A run over [`Forward`] numbers is the plain run, but for the choice of its steps. Numbers are
+//! ordered by their values. The steps of a control are no functions of what they were chosen by,
+//! and are held to a tolerance of values and derivatives together (`forward/shares.rs`).
 //! `differentiable.rs` says through what derivatives go. Newton's method ends by values, when
 //! derivatives are one iteration behind, so implicit methods are not among that.
 //!

@@ -41,8 +41,8 @@ struct Block {
     push: f64,
 }
 
-/// A block that begins at 4.4 m/s, moves against the wall and comes back. Returns the largest change
-/// of its energy, as a part of it, and the warnings.
+/// A block that begins at 4.4 m/s, moves against the wall and comes back. Returns the largest
+/// change of its energy, as a part of it, and the warnings.
 fn bounce<I>(integrator: I, end: f64, reports: f64) -> (f64, Warnings)
 where
     I: Runs<f64, Block, StandardLagrange, Absolute>,

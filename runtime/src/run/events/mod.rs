@@ -3,11 +3,11 @@
 //! `watch.rs` follows the sign of a reading, `root.rs` finds where it passes zero. `list.rs` has
 //! what happens in a run, behind one pointer, so that a run is compiled once for all of it.
 //! `search.rs` looks into a step, on the dense output of the method. `handling.rs` calls handlers
-//! and controllers between two segments. `hybrid.rs` and `settings.rs` are what a user writes, `single_step.rs`
-//! the same for a `Stepper`. `modes.rs` finds the modes of interactions anew at every such instant,
-//! `looked.rs` where they end, and `stepper_modes.rs` both for a `Stepper`. `sides.rs` turns laws
-//! that switch, `switching.rs` remembers their sides, and `instants.rs` knows those of the time
-//! ahead.
+//! and controllers between two segments. `hybrid.rs` and `settings.rs` are what a user writes,
+//! `single_step.rs` the same for a `Stepper`. `modes.rs` finds the modes of interactions anew at
+//! every such instant, `looked.rs` where they end, and `stepper_modes.rs` both for a `Stepper`.
+//! `sides.rs` turns laws that switch, `switching.rs` remembers their sides, and `instants.rs` knows
+//! those of the time ahead.
 //!
 //! `sizes.rs` has what counts as nothing beside a reading or a motion.
 //!

@@ -18,7 +18,8 @@ use crate::run::followed::bodies_within;
 use crate::run::sample::Sample;
 use crate::run::segments::Run;
 
-/// How much longer than for other switches a moment is, for those of continuous laws in fixed steps.
+/// How much longer than for other switches a moment is, for those of continuous laws in fixed
+/// steps.
 const UNRESOLVED: f64 = 1e3;
 
 /// The time (s) and the state of an event.

@@ -221,7 +221,8 @@ where
         }
     }
 
-    /// Whether the cause may be that the equations do not determine the motion at the end of a step.
+    /// Whether the cause may be that the equations do not determine the motion at the end of a
+    /// step.
     fn may_be_singular(&self, fault: &Fault) -> bool {
         match fault {
             Fault::Undetermined { .. } | Fault::Singular { .. } => true,
