@@ -53,6 +53,8 @@ where
         let mut pose = Bead::pose(&state, handles.bead);
         pose.position.x = 0.0;
         Bead::set_pose(&mut state, handles.bead, pose);
+        // What moves leaves the length of zero on its way.
+        Bead::set_velocity(&mut state, handles.bead, [0.0; 3].into());
     }
     let simulation = Simulation::new(&bead, method, integrator).initial_state(state);
     let error = if closure {

@@ -73,7 +73,7 @@ impl Held {
         all: &[Vectorial],
         rank: usize,
     ) -> Option<Self> {
-        let kept = independent(std::slice::from_ref(rows), super::TOLERANCE);
+        let kept = independent(std::slice::from_ref(rows), super::limits::TOLERANCE);
         if kept.len() < rank {
             return None;
         }
