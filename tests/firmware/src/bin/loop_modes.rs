@@ -5,7 +5,7 @@
 #![no_main]
 #![forbid(unsafe_code)]
 
-use holonom::{Fault, Real, Scalar};
+use holonom::{Fault, Real};
 use holonom_firmware::Number;
 use holonom_firmware::modes::{sprung, worst};
 use panic_never as _;

@@ -10,10 +10,9 @@ use core::hint::black_box;
 use holonom::prelude::*;
 use holonom::{
     Heun, Kutta3, Midpoint, Scalar, SemiImplicitEuler,
-    dynamics::Dynamics,
-    integrate::{DormandPrince5, OneStep},
-    measure::NoForces,
+    integrate::DormandPrince5,
     mechanism::{Absolute, Relative},
+    run::Steps,
 };
 use holonom_firmware::Number;
 use holonom_firmware::trials::{
@@ -21,14 +20,11 @@ use holonom_firmware::trials::{
 };
 use panic_never as _;
 
-/// The equations of a four-bar in some coordinates.
-type Of<F, C> = Dynamics<Number, Swing, F, NoForces, C>;
-
 /// Steps and read-outs of a four-bar by its bodies.
 fn by_bodies<F, K>(formulation: F, scheme: K) -> Result<(), Fault>
 where
     F: Formulation<Number>,
-    K: OneStep<Number, Of<F, Absolute>>,
+    K: Steps<Number, Swing, F, Absolute>,
 {
     let plant = Swing::default();
     let mut stepper = Stepper::new(&plant, formulation, scheme)?;
@@ -53,7 +49,7 @@ where
 fn by_joints<F, K>(formulation: F, scheme: K) -> Result<(), Fault>
 where
     F: Formulation<Number>,
-    K: OneStep<Number, Of<F, Relative>>,
+    K: Steps<Number, Swing, F, Relative>,
 {
     let plant = Swing::default();
     let mut stepper =
@@ -95,12 +91,12 @@ where
 
 /// Methods that take steps of the four-bar in both coordinates.
 trait Moves<F: Formulation<Number>>:
-    OneStep<Number, Of<F, Absolute>> + OneStep<Number, Of<F, Relative>>
+    Steps<Number, Swing, F, Absolute> + Steps<Number, Swing, F, Relative>
 {
 }
 
 impl<F: Formulation<Number>, K> Moves<F> for K where
-    K: OneStep<Number, Of<F, Absolute>> + OneStep<Number, Of<F, Relative>>
+    K: Steps<Number, Swing, F, Absolute> + Steps<Number, Swing, F, Relative>
 {
 }
 
