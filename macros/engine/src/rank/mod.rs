@@ -99,7 +99,7 @@ pub fn judge(model: &Model) -> Independence {
 }
 
 /// The same of a model whose redundant equations are to be left out: vector equations are split
-/// along directions by which the others stay independent ([`components`]).
+/// along directions by which the others stay independent (`components.rs`).
 #[must_use]
 pub fn judge_to_drop(model: &Model) -> Independence {
     let mut best = judged(model);
