@@ -30,7 +30,8 @@ where
         /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5
         /// up to about this over `a`, and grows for some time from somewhat less on.
         const STABLE: f64 = 2.0;
-        /// Radians in a step that no motion has.
+        /// Radians in a step that no motion has, and lengths of a mechanism that no joint is open
+        /// by.
         const BEYOND: f64 = 1e6;
         let not_finite = matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite);
         if not_finite
@@ -51,12 +52,12 @@ where
         let turned = match fault {
             Fault::Singular { .. } => Some(BEYOND),
             Fault::ZeroOrientation { .. } => self.gone.is_some().then_some(1.0),
-            // Near a configuration out of reach rates are large, and what is open is little.
+            // What a law of time pulls out of reach moves as fast, but is not open as wide.
             Fault::NotConverged { residual, .. } => {
                 let length = characteristic_length::<S, M>(constants, state);
-                let is_far = exceeds(S::constant(residual), length.to_f64());
-                let turned = if is_far { 1.0 } else { BEYOND };
-                self.gone.is_some().then_some(turned)
+                let is_wide = exceeds(S::constant(residual), BEYOND * length.to_f64());
+                let is_lost = is_wide || !M::REPORT.time.constraints;
+                (self.gone.is_some() && is_lost).then_some(1.0)
             }
             _ => not_finite.then_some(1.0),
         };
