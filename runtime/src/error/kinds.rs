@@ -1,60 +1,9 @@
 //! What can go wrong at run time. Small enums, no strings; the last good state travels with them.
 //! What they say is in [`crate::message`].
 
-use core::fmt::Display;
-
 use crate::error::checkpoint::CheckpointFault;
 use crate::error::left_out::{LeavesOut, Unheeding};
-use crate::math::spline::SplineFault;
-
-/// A number of the description that the macro could not see is not acceptable.
-///
-/// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
-#[derive(Clone, Copy, PartialEq)]
-pub struct ParameterError {
-    /// The field of the mechanism.
-    pub field: &'static str,
-    /// The attribute.
-    pub attribute: &'static str,
-    /// What is wrong with it.
-    pub fault: ParameterFault,
-}
-
-/// What is wrong with a parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum ParameterFault {
-    /// NaN or infinite.
-    NotFinite,
-    /// Zero or negative where a positive number is needed.
-    NotPositive,
-    /// Principal moments of inertia of which one exceeds the sum of the others.
-    TriangleInequality,
-    /// A vector of length zero where a direction is needed.
-    ZeroLength,
-    /// A table that makes no spline.
-    Spline(SplineFault),
-    /// With this parameter no configuration was found that satisfies all equations: neither from
-    /// the described one and near it, nor by continuation from the typical values of parameters.
-    NotAssembled {
-        /// The joint that stays open most.
-        joint: &'static str,
-    },
-    /// With this parameter equations depend on each other at the start. They do not at the typical
-    /// values of parameters (`like`).
-    Dependent {
-        /// The joint whose pivot vanishes.
-        joint: &'static str,
-    },
-    /// With this parameter an equation that was left out does not follow from the others. It does
-    /// at the typical values of parameters (`like`).
-    Independent {
-        /// The joint that it belongs to.
-        joint: &'static str,
-    },
-}
-
-impl core::error::Error for ParameterError {}
+use crate::error::parameter::ParameterError;
 
 /// Why an evaluation, a step, a correction or a reading could not be done.
 ///
@@ -627,54 +576,6 @@ impl core::error::Error for Fault {
         match self {
             Self::Parameter(error) => Some(error),
             _ => None,
-        }
-    }
-}
-
-/// A run or a step that could not go on: when, why, and the last good state.
-///
-/// `Debug` prints the sentence of `Display`, for a `main` that returns the error; the state is not
-/// part of it.
-#[derive(Clone, Copy, PartialEq)]
-pub struct SimulationError<X> {
-    /// The time of the last good state (s).
-    pub time: f64,
-    /// Why it stopped.
-    pub fault: Fault,
-    /// The last good state.
-    pub state: X,
-}
-
-impl<X> core::error::Error for SimulationError<X> {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        Some(&self.fault)
-    }
-}
-
-/// Why a run ended whose observer may fail, see [`Simulation::run`](crate::Simulation::run).
-///
-/// `Debug` prints the sentence of `Display`, for a `main` that returns the error. Any `E` that can
-/// be displayed will do, `Box<dyn Error>` among them.
-#[derive(Clone, Copy, PartialEq)]
-pub enum RunError<X, E> {
-    /// The run could not go on.
-    Simulation(SimulationError<X>),
-    /// What the observer could not do. The run was stopped at that sample.
-    Observer(E),
-}
-
-impl<X, E> From<SimulationError<X>> for RunError<X, E> {
-    fn from(error: SimulationError<X>) -> Self {
-        Self::Simulation(error)
-    }
-}
-
-/// The source is the fault of the run. An observer's error is shown itself.
-impl<X, E: Display> core::error::Error for RunError<X, E> {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Simulation(error) => Some(&error.fault),
-            Self::Observer(_) => None,
         }
     }
 }

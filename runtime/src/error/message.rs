@@ -6,54 +6,7 @@ use core::fmt;
 use crate::error::interactions;
 use crate::error::readable::{Given, Measured};
 use crate::error::switches;
-use crate::error::{
-    AngleSet, Fault, LeavesOut, NotFinite, ParameterError, ParameterFault, Quantity, RunError,
-    SimulationError,
-};
-
-impl fmt::Display for ParameterError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let fault = match self.fault {
-            ParameterFault::NotFinite => "must be finite",
-            ParameterFault::NotPositive => "must be positive",
-            ParameterFault::TriangleInequality => {
-                "must satisfy the triangle inequality: no principal moment exceeds the sum of the others"
-            }
-            ParameterFault::ZeroLength => "must not be the zero vector",
-            ParameterFault::Spline(fault) => {
-                return write!(f, "`{}` is {}", self.field, fault.sentence());
-            }
-            ParameterFault::NotAssembled { joint } => {
-                return write!(
-                    f,
-                    "with this `{}` the mechanism cannot be assembled: joint `{joint}` stays open",
-                    self.field
-                );
-            }
-            ParameterFault::Dependent { joint } => {
-                return write!(
-                    f,
-                    "with this `{}` the constraints depend on each other at joint `{joint}` at the start; at the typical values of the parameters they do not",
-                    self.field
-                );
-            }
-            ParameterFault::Independent { joint } => {
-                return write!(
-                    f,
-                    "with this `{}` an equation of joint `{joint}` does not follow from the others; it was left out because it does at the typical values of the parameters",
-                    self.field
-                );
-            }
-        };
-        write!(f, "`{}` of `{}` {fault}", self.attribute, self.field)
-    }
-}
-
-impl fmt::Debug for ParameterError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
-    }
-}
+use crate::error::{AngleSet, Fault, LeavesOut, NotFinite, Quantity};
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -573,33 +526,6 @@ fn opens(
 }
 
 impl fmt::Debug for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
-    }
-}
-
-impl<X> fmt::Display for SimulationError<X> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at {} s: {}", Given(self.time), self.fault)
-    }
-}
-
-impl<X> fmt::Debug for SimulationError<X> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
-    }
-}
-
-impl<X, E: fmt::Display> fmt::Display for RunError<X, E> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Simulation(error) => fmt::Display::fmt(error, f),
-            Self::Observer(error) => fmt::Display::fmt(error, f),
-        }
-    }
-}
-
-impl<X, E: fmt::Display> fmt::Debug for RunError<X, E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
     }

@@ -1,6 +1,6 @@
 //! What can go wrong, and how it is said.
 //!
-//! Texts are in `message.rs`. `Debug` of an error says the same as `Display`, because a `main`
+//! Texts of faults are in `message.rs`. `Debug` of an error says the same as `Display`, because a `main`
 //! that returns an error prints `Debug`.
 
 mod checkpoint;
@@ -8,14 +8,16 @@ mod interactions;
 mod kinds;
 mod left_out;
 pub(crate) mod message;
+mod parameter;
 pub(crate) mod readable;
+mod run;
 #[cfg(feature = "serde")]
 pub(crate) mod sentence;
 pub(crate) mod setting;
 mod switches;
 
 pub use checkpoint::CheckpointFault;
-pub use kinds::{
-    AngleSet, Fault, NotFinite, ParameterError, ParameterFault, Quantity, RunError, SimulationError,
-};
+pub use kinds::{AngleSet, Fault, NotFinite, Quantity};
 pub use left_out::{LeavesOut, Unheeding};
+pub use parameter::{ParameterError, ParameterFault};
+pub use run::{RunError, SimulationError};
