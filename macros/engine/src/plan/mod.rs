@@ -49,6 +49,7 @@ pub mod candidates;
 mod carried;
 mod collect;
 pub mod eliminate;
+mod fill;
 mod inverse;
 pub mod kernels;
 mod order;

@@ -16,6 +16,7 @@
 use std::collections::BTreeSet;
 
 use super::Pivot;
+use super::fill::{Block, fill};
 use super::reach::Reach;
 use super::tree::Tree;
 use crate::model::{BodyKind, Model};
@@ -139,21 +140,31 @@ impl<'a> Order<'a> {
         pivots
     }
 
-    /// All rows, those of closing joints last.
+    /// All rows, those of closing joints last. From the leaves of a tree no elimination couples
+    /// what was not coupled; where another beginning does, as in a tree that branches, it is not
+    /// heeded.
     fn rows_in_order(&self, tree: &Tree, rows: Rows) -> Vec<usize> {
-        let mut joints: Vec<usize> = tree.bodies.iter().filter_map(|(_, joint)| *joint).collect();
-        match rows {
-            Rows::Leaves => {}
-            Rows::Ground => joints.reverse(),
-            Rows::BothEnds => {
-                let from_end = |joint: &usize| tree.heights[*joint].min(tree.depths[*joint]);
-                joints.sort_by_key(from_end);
-            }
-        }
-        let joints = joints.iter().chain(&tree.closing);
+        let joints = joints_in_order(tree, rows);
+        let from_leaves = joints_in_order(tree, Rows::Leaves);
+        let fills_less = self.fill(&from_leaves) < self.fill(&joints);
+        let joints = if fills_less { from_leaves } else { joints };
         joints
-            .flat_map(|&joint| rows_of(self.scene, joint))
+            .into_iter()
+            .flat_map(|joint| rows_of(self.scene, joint))
             .collect()
+    }
+
+    /// What rows fill in if those of the joints are eliminated in this order.
+    fn fill(&self, joints: &[usize]) -> usize {
+        let blocks = joints.iter().map(|&joint| {
+            let rows = rows_of(self.scene, joint);
+            let bodies = rows.iter().map(|&row| &self.reach.rows[row]);
+            Block {
+                equations: rows.len(),
+                bodies: bodies.flatten().copied().flatten().collect(),
+            }
+        });
+        fill(&blocks.collect::<Vec<_>>())
     }
 
     fn take_body(&mut self, pivots: &mut Vec<Pivot>, body: usize) {
@@ -496,6 +507,21 @@ fn carries(coupling: &[Vec<(usize, Expr)>], row: usize, first: usize) -> bool {
             .collect();
         matches!(own[..], [&(unknown, value)] if unknown == first + k && value.abs() == Arena::ONE)
     })
+}
+
+/// All joints, the closing ones last.
+fn joints_in_order(tree: &Tree, rows: Rows) -> Vec<usize> {
+    let mut joints: Vec<usize> = tree.bodies.iter().filter_map(|(_, joint)| *joint).collect();
+    match rows {
+        Rows::Leaves => {}
+        Rows::Ground => joints.reverse(),
+        Rows::BothEnds => {
+            let from_end = |joint: &usize| tree.heights[*joint].min(tree.depths[*joint]);
+            joints.sort_by_key(from_end);
+        }
+    }
+    joints.extend(&tree.closing);
+    joints
 }
 
 fn rows_of(scene: &Scene, joint: usize) -> Vec<usize> {
