@@ -5,6 +5,8 @@
 
 #![forbid(unsafe_code)]
 
+mod lengths;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
