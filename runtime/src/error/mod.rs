@@ -1,7 +1,7 @@
 //! What can go wrong, and how it is said.
 //!
-//! Texts of faults are in `message.rs`. `Debug` of an error says the same as `Display`, because a `main`
-//! that returns an error prints `Debug`.
+//! Texts of faults are in `message.rs`. `Debug` of an error says the same as `Display`, because a
+//! `main` that returns an error prints `Debug`.
 
 mod checkpoint;
 mod interactions;
