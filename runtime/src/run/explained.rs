@@ -52,6 +52,8 @@ where
         let turned = match fault {
             Fault::Singular { .. } => Some(BEYOND),
             Fault::ZeroOrientation { .. } => self.gone.is_some().then_some(1.0),
+            // Points that an unstable method throws across each other, step by step.
+            Fault::SlidingLaw { .. } => Some(1.0),
             // What a law of time pulls out of reach moves as fast, but is not open as wide.
             Fault::NotConverged { residual, .. } => {
                 let length = characteristic_length::<S, M>(constants, state);

@@ -170,3 +170,26 @@ fn it_keeps_its_angular_momentum() {
         },
     );
 }
+
+/// An unstable method throws the ends of the springs across each other. That is no law that holds a
+/// length at zero.
+#[test]
+fn steps_that_are_too_long_for_the_springs_are_named() {
+    let governor = FlyballGovernor::default();
+    for step in [0.01, 5e-3, 2e-3] {
+        let run = || governor.simulation(Baumgarte::new(10.0, 10.0), Rk4::every(step));
+        let [bodies, joints] = [
+            run()
+                .absolute_coordinates()
+                .run(0.0..=1.0, every(0.1), |_| ())
+                .map(drop),
+            run()
+                .joint_coordinates()
+                .run(0.0..=1.0, every(0.1), |_| ())
+                .map(drop),
+        ];
+        for ended in [bodies, joints] {
+            assert_eq!(ended.expect_err("it grows").fault, Fault::Unstable { step });
+        }
+    }
+}
