@@ -34,6 +34,26 @@ fn underflow(is_least: bool, joint: Option<&'static str>, resolution: Option<f64
 }
 
 #[test]
+fn a_state_that_does_not_satisfy_the_constraints_is_told_by_how_much() {
+    let says = |quantity: Quantity, message: &str| {
+        let fault = Fault::NotAssembled {
+            joint: "pin",
+            quantity,
+            violation: 0.05,
+        };
+        assert_eq!(fault.to_string(), message);
+    };
+    says(
+        Quantity::Length,
+        "joint `pin` is open by 0.05 m: the state does not satisfy the constraints, `state_near` finds one that does",
+    );
+    says(
+        Quantity::Speed,
+        "the bodies of joint `pin` move against it at 0.05 m/s: the state does not satisfy the constraints, `with_rates` finds one that does",
+    );
+}
+
+#[test]
 fn a_step_size_that_vanishes_names_a_cause() {
     let says = |fault: Fault, message: &str| assert_eq!(fault.to_string(), message);
     says(
