@@ -292,8 +292,9 @@ macro_rules! __stub_part {
 /// | `passive` | joints have no inputs and no motors; damping stays |
 /// | `round_angles` | angles of frames within 1e-5 rad of a quarter turn are exact: 1.5708 is pi / 2 |
 ///
-/// A `#[mechanism(..)]` takes the place of the one that is printed,
-/// `#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]`. Other attributes are added.
+/// A `#[mechanism(..)]` of your own stands beside the one that is printed,
+/// `#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]`. What yours names is as you
+/// write it, the rest stays. Other attributes are added.
 /// Fields of your own follow the file in braces. They name bodies by their fields. So you close a
 /// loop or add a spring without a copy of the struct:
 ///

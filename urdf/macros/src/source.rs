@@ -8,7 +8,11 @@
 use holonom_urdf::Mechanism;
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote};
-use syn::{Attribute, Field, Fields, File, ImplItem, Item, ItemImpl, ItemStruct, Type, Visibility};
+use syn::punctuated::Punctuated;
+use syn::{
+    Attribute, Field, Fields, File, ImplItem, Item, ItemImpl, ItemStruct, Meta, Token, Type,
+    Visibility,
+};
 use syn::{parse_quote, parse_quote_spanned};
 
 use crate::input::Input;
@@ -71,17 +75,17 @@ impl Place<'_> {
 
     fn structure(&self, mut item: ItemStruct) -> ItemStruct {
         let input = self.input;
-        let is_own = |one: &Attribute| one.path().is_ident("mechanism");
-        let has_own = input.attributes.iter().any(is_own);
         item.ident = input.name.clone();
         item.vis = input.visibility.clone();
         let printed = std::mem::take(&mut item.attrs);
         // The words of the user come first, and the derive before what it reads.
-        let (docs, others) = input
+        let (docs, mut others) = input
             .attributes
             .iter()
             .cloned()
             .partition::<Vec<_>, _>(|one| one.path().is_ident("doc"));
+        let mut own = others.iter_mut().filter(|one| is_of_mechanism(one));
+        let mut own = own.next();
         item.attrs = docs;
         if !item.attrs.is_empty() {
             item.attrs.push(parse_quote!(#[doc = ""]));
@@ -89,7 +93,9 @@ impl Place<'_> {
         for attribute in printed {
             if attribute.path().is_ident("derive") {
                 item.attrs.push(self.derives());
-            } else if !(attribute.path().is_ident("mechanism") && has_own) {
+            } else if let (true, Some(own)) = (is_of_mechanism(&attribute), &mut own) {
+                add_settings(own, &attribute);
+            } else {
                 item.attrs.push(attribute);
             }
         }
@@ -151,6 +157,32 @@ impl Place<'_> {
             *visibility = self.input.visibility.clone();
         }
     }
+}
+
+fn is_of_mechanism(attribute: &Attribute) -> bool {
+    attribute.path().is_ident("mechanism")
+}
+
+/// Adds the settings of a printed `#[mechanism(..)]` that the user's one does not name.
+fn add_settings(own: &mut Attribute, printed: &Attribute) {
+    let settings = Punctuated::<Meta, Token![,]>::parse_terminated;
+    let printed = printed.parse_args_with(settings);
+    let printed = printed.expect("the printer writes settings");
+    // Of another form than a list it is refused by the derive.
+    let Meta::List(list) = &mut own.meta else {
+        return;
+    };
+    let tokens = Vec::from_iter(list.tokens.clone());
+    let names =
+        tokens.split(|token| matches!(token, TokenTree::Punct(one) if one.as_char() == ','));
+    let names = names.filter_map(|setting| setting.first());
+    let named: Vec<String> = names.map(ToString::to_string).collect();
+    let is_left = |one: &&Meta| named.iter().all(|name| !one.path().is_ident(name));
+    let others = printed.iter().filter(is_left);
+    let own = &list.tokens;
+    let comma = tokens.last().is_some_and(|last| last.to_string() != ",");
+    let comma = comma.then(|| quote!(,));
+    list.tokens = quote!(#own #comma #(#others),*);
 }
 
 /// The name in `pub joint Name(..)`.

@@ -148,14 +148,48 @@ fn options_attributes_and_fields_are_those_of_the_user() {
     let all = attributes(&placed.attrs);
     assert_eq!(all[0], text(quote!(#[doc = " Ours."])));
     assert!(all.iter().any(|one| one.contains("The root link floats")));
-    let of_mechanism: Vec<_> = all.iter().filter(|one| one.contains("gravity")).collect();
-    assert!(of_mechanism.is_empty() && all.iter().any(|one| one.contains("\"both\"")));
+    let settings = quote!(#[mechanism(coordinates = "both", gravity = [0.0, 0.0, -9.81])]);
+    let of_mechanism: Vec<_> = all.iter().filter(|one| one.contains("mechanism")).collect();
+    assert_eq!(of_mechanism, [&text(settings)]);
     assert!(all.iter().all(|one| !one.contains("urdf (")), "{all:?}");
     assert_eq!(text(&placed.vis), "pub (crate)");
     let last = placed.fields.iter().next_back().expect("a field");
     assert_eq!(last.ident.as_ref().expect("a name"), "own");
     let is_input = |field: &Field| field.attrs.iter().any(|one| one.path().is_ident("input"));
     assert!(!placed.fields.iter().any(is_input));
+}
+
+/// What the user's `#[mechanism(..)]` does not name stays: gravity was dropped without a word.
+#[test]
+fn settings_of_the_user_stand_beside_those_of_the_file() {
+    for (own, whole) in [
+        (
+            "",
+            quote!(gravity = [0.0, 0.0, -9.81], coordinates = "joints"),
+        ),
+        (
+            "redundant = \"drop\",",
+            quote!(
+                redundant = "drop",
+                gravity = [0.0, 0.0, -9.81],
+                coordinates = "joints"
+            ),
+        ),
+        (
+            "gravity = [0.0, 0.0, 0.0]",
+            quote!(gravity = [0.0, 0.0, 0.0], coordinates = "joints"),
+        ),
+        (
+            "coordinates = \"bodies\", gravity = [0.0, 0.0, -1.62],",
+            quote!(coordinates = "bodies", gravity = [0.0, 0.0, -1.62],),
+        ),
+    ] {
+        let call = format!(r#"[::holonom] #[mechanism({own})] struct Arm = "../arm.urdf";"#);
+        let placed = placed(&call);
+        let all = attributes(&structure(&placed).attrs);
+        let found: Vec<_> = all.iter().filter(|one| one.contains("mechanism")).collect();
+        assert_eq!(found, [&text(quote!(#[mechanism(#whole)]))]);
+    }
 }
 
 /// Messages of errors, with the places at which they are.
