@@ -10,11 +10,7 @@ use holonom::prelude::*;
 
 holonom::urdf! {
     /// Three axes with a tool. The inertial frames are turned against the links.
-    #[mechanism(
-        gravity = [0.0, 0.0, -9.81],
-        coordinates = "joints",
-        kernels = [mass, inverse, gravity, jacobian]
-    )]
+    #[mechanism(kernels = [mass, inverse, gravity, jacobian])]
     struct Arm = "examples/three_axes.urdf";
 }
 

@@ -10,9 +10,7 @@ use holonom::nalgebra::Vector6;
 use holonom::prelude::*;
 
 holonom::urdf! {
-    #[mechanism(
-        gravity = [0.0, 0.0, -9.81], coordinates = "joints", kernels = [inverse, jacobian]
-    )]
+    #[mechanism(kernels = [inverse, jacobian])]
     struct Ur5 = "../urdf/tests/data/robots/ur5.urdf";
 }
 

@@ -7,35 +7,19 @@
 
 holonom::urdf! { pub(crate) struct Crane = "tests/data/crane.urdf"; }
 holonom::urdf! {
-    #[mechanism(
-        gravity = [0.0, 0.0, -9.81],
-        coordinates = "joints",
-        kernels = [mass, inverse, gravity, coriolis, jacobian]
-    )]
+    #[mechanism(kernels = [mass, inverse, gravity, coriolis, jacobian])]
     pub(crate) struct Robot2dofPlanar = "tests/data/robots/double_pendulum.urdf";
 }
 holonom::urdf! {
-    #[mechanism(
-        gravity = [0.0, 0.0, -9.81],
-        coordinates = "joints",
-        kernels = [mass, inverse, gravity, coriolis, jacobian]
-    )]
+    #[mechanism(kernels = [mass, inverse, gravity, coriolis, jacobian])]
     pub(crate) struct Panda = "tests/data/robots/panda.urdf";
 }
 holonom::urdf! {
-    #[mechanism(
-        gravity = [0.0, 0.0, -9.81],
-        coordinates = "joints",
-        kernels = [mass, inverse, gravity, coriolis, jacobian]
-    )]
+    #[mechanism(kernels = [mass, inverse, gravity, coriolis, jacobian])]
     pub(crate) struct SoArm100 = "tests/data/robots/so100.urdf";
 }
 holonom::urdf! {
-    #[mechanism(
-        gravity = [0.0, 0.0, -9.81],
-        coordinates = "joints",
-        kernels = [mass, inverse, gravity, coriolis, jacobian]
-    )]
+    #[mechanism(kernels = [mass, inverse, gravity, coriolis, jacobian])]
     pub(crate) struct Ur5 = "tests/data/robots/ur5.urdf";
 }
 

@@ -8,7 +8,7 @@ mech::urdf! {
 
 mech::urdf! {
     #[urdf(passive)]
-    #[mechanism(coordinates = "joints")]
+    #[mechanism(gravity = [0.0, 0.0, 0.0])]
     #[derive(PartialEq, Eq)]
     pub struct Weightless = "../../../urdf/tests/data/gripper.urdf";
 }
