@@ -40,6 +40,7 @@ pub(crate) fn mechanism(robot: &Robot, options: &Options) -> Mechanism {
         bodies,
         joints,
         frames: Vec::new(),
+        notes: robot.notes.clone(),
     };
     for (place, body) in mechanism.bodies.iter_mut().enumerate() {
         let is_named =

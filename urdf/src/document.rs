@@ -161,7 +161,7 @@ pub(crate) fn read(
         owner: format!("robot \"{name}\""),
         quarter_turns,
     };
-    reader.refuse_others(robot, &["link", "joint"], BESIDE_LINKS);
+    reader.skip_others(robot, &["link", "joint"], BESIDE_LINKS);
     let mut document = Document {
         name,
         links: Vec::new(),
@@ -187,7 +187,7 @@ pub(crate) fn read(
 }
 
 fn link(reader: &mut Reader<'_>, node: Node<'_, '_>, name: &str) -> Link {
-    reader.refuse_others(node, &["inertial"], BESIDE_INERTIAL);
+    reader.skip_others(node, &["inertial"], BESIDE_INERTIAL);
     let inertia = match reader.child(node, "inertial") {
         Some(inertial) => inertia(reader, inertial),
         None => Some(Inertia::ZERO),
@@ -202,7 +202,7 @@ fn link(reader: &mut Reader<'_>, node: Node<'_, '_>, name: &str) -> Link {
 }
 
 fn inertia(reader: &mut Reader<'_>, node: Node<'_, '_>) -> Option<Inertia> {
-    reader.refuse_others(node, &["origin", "mass", "inertia"], &[]);
+    reader.refuse_others(node, &["origin", "mass", "inertia"]);
     let frame = reader.origin(node);
     let Some(mass) = reader.child(node, "mass") else {
         reader.at(node, "<inertial> has no <mass>");
@@ -221,7 +221,14 @@ fn inertia(reader: &mut Reader<'_>, node: Node<'_, '_>) -> Option<Inertia> {
         return None;
     };
     let diagonal = ["ixx", "iyy", "izz"].map(|name| reader.number(tensor, name));
-    let products = ["ixy", "ixz", "iyz"].map(|name| reader.number_or(tensor, name, 0.0));
+    let products = ["ixy", "ixz", "iyz"].map(|name| {
+        if tensor.attribute(name).is_none() {
+            let message = format!("{}: `{name}` is left out, and 0 is taken", reader.owner);
+            let line = reader.lines.of_node(tensor);
+            reader.faults.note(line, message);
+        }
+        reader.number_or(tensor, name, 0.0)
+    });
     let ([Some(xx), Some(yy), Some(zz)], [Some(xy), Some(xz), Some(yz)]) = (diagonal, products)
     else {
         return None;
@@ -239,7 +246,7 @@ fn joint(reader: &mut Reader<'_>, node: Node<'_, '_>, name: &str) -> Option<Join
     let read = [
         "parent", "child", "origin", "axis", "limit", "dynamics", "mimic",
     ];
-    reader.refuse_others(node, &read, BESIDE_ORIGIN);
+    reader.skip_others(node, &read, BESIDE_ORIGIN);
     let kind = reader.text(node, "type").and_then(|found| {
         let known = JointKind::NAMES.iter().find(|(name, _)| *name == found);
         if known.is_none() {

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use roxmltree::Node;
 
-use crate::faults::Collector;
+use crate::faults::{Collector, is_like};
 use crate::spatial::{Frame, rotation};
 
 /// Where lines begin, so that a place is found without a walk through the file.
@@ -137,21 +137,53 @@ impl Reader<'_> {
     }
 
     /// Refuses child elements that are neither read nor known to change no motion.
-    pub(crate) fn refuse_others(&mut self, node: Node<'_, '_>, read: &[&str], passed: &[&str]) {
-        for child in node.children().filter(Node::is_element) {
-            let tag = child.tag_name().name();
-            if child
-                .tag_name()
-                .namespace()
-                .is_some_and(|space| space.contains("xacro"))
-            {
-                let message = format!("<xacro:{tag}> is no URDF; run `xacro` on the file first");
+    pub(crate) fn refuse_others(&mut self, node: Node<'_, '_>, read: &[&str]) {
+        for child in others(node, read) {
+            let message = format!(
+                "<{}> is not read here; <{}> are",
+                child.tag_name().name(),
+                read.join(">, <")
+            );
+            self.at(child, &message);
+        }
+    }
+
+    /// Skips child elements that are not read: other tools have theirs, and none of these changes a
+    /// motion here. They are noted, but those that are `known` to all. What may be a misspelt word
+    /// is refused, and so is what would change the motion.
+    pub(crate) fn skip_others(&mut self, node: Node<'_, '_>, read: &[&str], known: &[&str]) {
+        for child in others(node, read) {
+            let (name, space) = (child.tag_name().name(), child.tag_name().namespace());
+            if space.is_none() && known.contains(&name) {
+                continue;
+            }
+            let mut words = read.iter().chain(known);
+            let meant = words.find(|word| space.is_none() && is_like(name, word));
+            if space.is_some_and(|space| space.contains("xacro")) {
+                let message = format!("<xacro:{name}> is no URDF; run `xacro` on the file first");
                 self.at(child, &message);
-            } else if !read.contains(&tag) && !passed.contains(&tag) {
-                let read = read.join(">, <");
-                let message = format!("<{tag}> is not read here; <{read}> are");
+            } else if CLOSING.contains(&name) {
+                let message = format!(
+                    "<{name}> closes a loop and is not read; close it in the struct, by a joint"
+                );
                 self.at(child, &message);
+            } else if let Some(word) = meant {
+                let message = format!("<{name}> is not read here; did you mean <{word}>?");
+                self.at(child, &message);
+            } else {
+                let line = self.lines.of_node(child);
+                let message = format!("<{name}> is no element of URDF and is skipped");
+                self.faults.note(line, message);
             }
         }
     }
+}
+
+/// Elements of other tools without which the mechanism is another one.
+const CLOSING: &[&str] = &["loop_joint"];
+
+/// Child elements that are none of some.
+fn others<'n, 'i>(node: Node<'n, 'i>, read: &[&str]) -> impl Iterator<Item = Node<'n, 'i>> {
+    let elements = node.children().filter(Node::is_element);
+    elements.filter(|child| !read.contains(&child.tag_name().name()))
 }

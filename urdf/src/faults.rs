@@ -44,22 +44,62 @@ impl fmt::Display for Faults {
 
 impl Error for Faults {}
 
-/// Faults while they are collected.
+/// What is no fault, and yet worth knowing: something of the file was skipped or supplied.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// The line of the file where it is first so, from 1.
+    pub line: usize,
+    /// How often it is so.
+    pub count: usize,
+    /// What is so: `<frame> is no element of URDF and is skipped`.
+    pub message: String,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        match self.count {
+            1 => Ok(()),
+            2 => f.write_str(", twice"),
+            count => write!(f, ", {count} times"),
+        }
+    }
+}
+
+/// Faults and notes while they are collected.
 #[derive(Debug, Default)]
-pub(crate) struct Collector(Vec<Fault>);
+pub(crate) struct Collector {
+    faults: Vec<Fault>,
+    notes: Vec<Note>,
+}
 
 impl Collector {
     pub(crate) fn at(&mut self, line: usize, message: impl Into<String>) {
         let message = message.into();
-        self.0.push(Fault { line, message });
+        self.faults.push(Fault { line, message });
     }
 
-    pub(crate) fn finish(mut self) -> Result<(), Faults> {
-        if self.0.is_empty() {
-            return Ok(());
+    /// Notes what is no fault; the same more than once is counted.
+    pub(crate) fn note(&mut self, line: usize, message: String) {
+        let mut known = self.notes.iter_mut();
+        if let Some(note) = known.find(|note| note.message == message) {
+            note.count += 1;
+            return;
         }
-        self.0.sort_by_key(|fault| fault.line);
-        Err(Faults(self.0))
+        self.notes.push(Note {
+            line,
+            count: 1,
+            message,
+        });
+    }
+
+    /// The notes, unless there are faults.
+    pub(crate) fn finish(mut self) -> Result<Vec<Note>, Faults> {
+        if self.faults.is_empty() {
+            return Ok(self.notes);
+        }
+        self.faults.sort_by_key(|fault| fault.line);
+        Err(Faults(self.faults))
     }
 }
 
@@ -68,13 +108,16 @@ pub(crate) fn advice<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>
     let known: Vec<&str> = known.into_iter().collect();
     let nearest = known.iter().min_by_key(|name| distance(unknown, name));
     match nearest {
-        Some(name) if 3 * distance(unknown, name) <= unknown.chars().count() => {
-            format!("did you mean \"{name}\"?")
-        }
+        Some(name) if is_like(unknown, name) => format!("did you mean \"{name}\"?"),
         Some(_) if known.len() <= 8 => format!("the file has \"{}\"", known.join("\", \"")),
         Some(_) => format!("the file has {} others", known.len()),
         None => "the file has none".into(),
     }
+}
+
+/// Whether a word may be another one, misspelt.
+pub(crate) fn is_like(word: &str, known: &str) -> bool {
+    3 * distance(word, known) <= word.chars().count()
 }
 
 /// Insertions, deletions and replacements of characters from one word to the other.

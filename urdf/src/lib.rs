@@ -64,6 +64,7 @@
 //! | `visual` with `box`, `cylinder` or `sphere` | a shape of the body, drawn in films: no mass follows from it; nothing on the ground |
 //! | `visual` with a mesh | a comment with the name of its file |
 //! | `collision`, `transmission`, `gazebo`, `safety_controller` and the like | nothing |
+//! | elements of other tools | nothing: they are skipped, and the struct names them ([`Robot::notes`]) |
 //!
 //! All joints are at zero in the reference configuration. The frame of the root link gives the
 //! global axes. The order of bodies is that of a walk from the root, depth first.
@@ -78,7 +79,7 @@
 //!
 //! The macro reports the same sentences as errors of the compiler, at the name of the file.
 //!
-//! - Elements that are not read and not known to change no motion, xacro sources among them.
+//! - Elements that may be misspelt, that close loops, and xacro sources.
 //! - Links that form no tree: two roots, circles, a link with two parents.
 //! - A link that moves without mass, or with an inertia that no body has. Links that are fixed to
 //!   it count with it.
@@ -110,7 +111,7 @@ mod tree;
 mod visuals;
 
 pub use document::{JointKind, Limits};
-pub use faults::{Fault, Faults};
+pub use faults::{Fault, Faults, Note};
 pub use mechanism::{Body, Joint, LinkFrame, Mechanism, Mimic, Motor, Options, Shape};
 pub use robot::Robot;
 

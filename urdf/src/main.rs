@@ -12,7 +12,8 @@ use holonom_urdf::{Options, Robot};
 
 /// Prints the annotated struct that holonom takes, from a URDF file.
 ///
-/// The source goes to standard output, every fault of the file to standard error with its line.
+/// The source goes to standard output. Every fault of the file goes to standard error with its line,
+/// and so does what is skipped.
 #[derive(Debug, Parser)]
 #[command(version)]
 struct Arguments {
@@ -55,6 +56,11 @@ fn main() -> ExitCode {
     } else {
         Robot::parse(&text)
     };
+    if let Ok(robot) = &robot {
+        for note in robot.notes() {
+            eprintln!("{file}:{}: {note}", note.line);
+        }
+    }
     match robot.and_then(|robot| robot.mechanism(&options)) {
         Ok(mechanism) => {
             // A reader may close its end before all is there.

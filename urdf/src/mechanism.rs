@@ -1,6 +1,7 @@
 //! The mechanism that a robot is: bodies and joints in global axes, with names for Rust.
 
 use crate::document::{JointKind, Limits};
+use crate::faults::Note;
 
 /// How a robot becomes a mechanism.
 #[derive(Clone, Debug, Default)]
@@ -39,6 +40,10 @@ pub struct Mechanism {
     pub joints: Vec<Joint>,
     /// The frames of all links, in the order of the file.
     pub frames: Vec<LinkFrame>,
+    /// What is no fault of the file, and yet worth knowing, see [`Robot::notes`].
+    ///
+    /// [`Robot::notes`]: crate::Robot::notes
+    pub notes: Vec<Note>,
 }
 
 /// A body: links that joints of the type `fixed` hold together.

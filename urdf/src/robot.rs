@@ -3,7 +3,7 @@
 use crate::describe;
 use crate::document::{self, Document, Joint};
 use crate::elements::Lines;
-use crate::faults::{Collector, Faults, advice};
+use crate::faults::{Collector, Faults, Note, advice};
 use crate::mechanism::{Mechanism, Options};
 use crate::tree::{self, Group, Tree};
 
@@ -12,6 +12,7 @@ use crate::tree::{self, Group, Tree};
 pub struct Robot {
     pub(crate) document: Document,
     pub(crate) tree: Tree,
+    pub(crate) notes: Vec<Note>,
 }
 
 impl Robot {
@@ -19,8 +20,7 @@ impl Robot {
     ///
     /// # Errors
     ///
-    /// Every fault of the file with its line. The text is no URDF, or has elements that are not
-    /// read. The links form no tree. A link that moves could be no rigid body.
+    /// Every fault of the file with its line. The text is no URDF. The links form no tree. A link that moves could be no rigid body.
     pub fn parse(text: &str) -> Result<Self, Faults> {
         Self::read(text, false)
     }
@@ -41,9 +41,20 @@ impl Robot {
     fn read(text: &str, quarter_turns: bool) -> Result<Self, Faults> {
         let mut faults = Collector::default();
         let read = read(text, quarter_turns, &mut faults);
-        faults.finish()?;
+        let notes = faults.finish()?;
         let (document, tree) = read.expect("without a fault there is a tree");
-        Ok(Self { document, tree })
+        Ok(Self {
+            document,
+            tree,
+            notes,
+        })
+    }
+
+    /// What is no fault, and yet worth knowing: elements of other tools that were skipped, and
+    /// products of inertia that were left out.
+    #[must_use]
+    pub fn notes(&self) -> &[Note] {
+        &self.notes
     }
 
     /// The mechanism that the robot is, with all joints at zero in the reference configuration.
@@ -79,6 +90,7 @@ impl Robot {
 }
 
 fn read(text: &str, quarter_turns: bool, faults: &mut Collector) -> Option<(Document, Tree)> {
+    let text = &as_readers_take_it(text);
     let xml = match roxmltree::Document::parse(text) {
         Ok(xml) => xml,
         Err(error) => {
@@ -103,6 +115,35 @@ fn read(text: &str, quarter_turns: bool, faults: &mut Collector) -> Option<(Docu
         could_move(&document, group, faults);
     }
     Some((document, tree))
+}
+
+/// So many prefixes of a file may lack their namespace.
+const PREFIXES: usize = 32;
+
+/// The text as readers of URDF take it, that do not ask for the letter of XML, line by line as it
+/// is: a declaration that does not stand first is left out, and prefixes without a namespace get
+/// one.
+fn as_readers_take_it(text: &str) -> String {
+    let mut text = text.to_owned();
+    if let Some(start) = text.find("<?xml ").filter(|start| *start > 0)
+        && let Some(length) = text[start..].find("?>")
+    {
+        let range = start..start + length + 2;
+        let blank = text[range.clone()].replace(|c| c != '\n', " ");
+        text.replace_range(range, &blank);
+    }
+    for _ in 0..PREFIXES {
+        let Err(roxmltree::Error::UnknownNamespace(prefix, _)) = roxmltree::Document::parse(&text)
+        else {
+            break;
+        };
+        let Some(start) = text.find("<robot") else {
+            break;
+        };
+        let declared = format!(" xmlns:{prefix}=\"prefix:{prefix}\"");
+        text.insert_str(start + "<robot".len(), &declared);
+    }
+    text
 }
 
 /// Refuses what mimics a joint that has no position, or itself.

@@ -80,6 +80,12 @@ fn title(page: &mut Page, mechanism: &Mechanism, couplings: &[Option<Coupling>])
         "///",
         &format!("{text}{mass} Bodies have the axes of their links."),
     );
+    if !mechanism.notes.is_empty() {
+        page.line(0, "///");
+        let notes = mechanism.notes.iter().map(|note| name(&note.to_string()));
+        let notes = notes.collect::<Vec<_>>().join("; ");
+        page.comment(0, "///", &format!("Of the file: {notes}."));
+    }
     if couplings.iter().flatten().any(Coupling::is_off_at_zero) {
         page.line(0, "///");
         let text = "A joint that mimics with an offset is not satisfied with all joints at zero: start \

@@ -154,9 +154,60 @@ fn elements_that_are_not_read() {
 <xacro:macro xmlns:xacro="http://www.ros.org/wiki/xacro" name="leg"/>
 <gazebo reference="a"/>"#,
     );
-    let wanted = "arm.urdf:3: link \"a\": <inertal> is not read here; <inertial> are\n\
-                  arm.urdf:5: robot \"arm\": <loop_joint> is not read here; <link>, <joint> are\n\
+    let wanted = "arm.urdf:3: link \"a\": <inertal> is not read here; did you mean <inertial>?\n\
+                  arm.urdf:5: robot \"arm\": <loop_joint> closes a loop and is not read; close it in the \
+                  struct, by a joint\n\
                   arm.urdf:6: robot \"arm\": <xacro:macro> is no URDF; run `xacro` on the file first";
+    assert_eq!(found, wanted);
+}
+
+/// Readers of other tools take what is no XML to the letter, and have elements of their own.
+#[test]
+fn elements_of_other_tools_are_skipped_and_named() {
+    let text = format!(
+        r#"
+<!-- Written by a tool. -->
+<?xml version="1.0"?>
+<robot name="arm">
+<link name="base"/>
+<link name="a">{MASS}<sim:wheel radius="1"/><frame/></link>
+<joint name="one" type="continuous"><parent link="base"/><child link="a"/><frame/></joint>
+<frame name="tip"/>
+</robot>"#
+    );
+    let robot = Robot::parse(&text).expect("a robot");
+    let notes = robot.notes().iter();
+    let notes: Vec<String> = notes.map(|note| format!("{}: {note}", note.line)).collect();
+    let skipped = "is no element of URDF and is skipped";
+    let left_out = "is left out, and 0 is taken";
+    let wanted = [
+        format!("8: <frame> {skipped}, 3 times"),
+        format!("6: link \"a\": `ixy` {left_out}"),
+        format!("6: link \"a\": `ixz` {left_out}"),
+        format!("6: link \"a\": `iyz` {left_out}"),
+        format!("6: <wheel> {skipped}"),
+    ];
+    let sorted = |mut all: Vec<String>| {
+        all.sort();
+        all
+    };
+    assert_eq!(sorted(notes), sorted(wanted.to_vec()));
+    let source = robot
+        .mechanism(&Options::default())
+        .expect("it moves")
+        .to_string();
+    assert!(
+        source.contains("`<wheel> is no element of URDF and is skipped`"),
+        "{source}"
+    );
+}
+
+/// A prefix may lack its namespace. That of xacro is no other tool's.
+#[test]
+fn sources_of_xacro_are_refused_with_and_without_a_namespace() {
+    let found = refusal(r#"<link name="base"/><xacro:macro name="leg"/>"#);
+    let wanted =
+        "arm.urdf:2: robot \"arm\": <xacro:macro> is no URDF; run `xacro` on the file first";
     assert_eq!(found, wanted);
 }
 
