@@ -89,8 +89,9 @@ where
 
     #[inline]
     fn follow(&mut self, from: &C::State<S>, step: S, to: &mut C::State<S>) {
-        if turns::carry(from, step, to) > S::constant(turns::FAR) {
-            self.count_turns(from, step, to);
+        self.has_counted = true;
+        if !turns::is_known(turns::carry(from, step, to)) {
+            self.count_from(from, step, to);
         }
     }
 
