@@ -48,14 +48,13 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
         (bodies, is_known)
     }
 
-    /// The same of a state that is not in its normal form yet.
+    /// Brings a state into its normal form that was reached from another one in some time (s), and
+    /// counts all angles.
     #[cold]
     #[inline(never)]
     pub(crate) fn count_from(&self, from: &C::State<S>, time: S, to: &mut C::State<S>) {
-        let mut normal = *to;
-        C::normalise(&self.absolute, self.own_constants(), &mut normal, None);
-        self.count_turns(from, time, &mut normal);
-        turns::copy(&normal, to);
+        C::normalise(&self.absolute, self.own_constants(), to, None);
+        self.count_turns(from, time, to);
     }
 
     /// Counts all angles of a state that was reached from another one in some time (s).

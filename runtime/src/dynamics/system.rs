@@ -91,7 +91,10 @@ where
     fn follow(&mut self, from: &C::State<S>, step: S, to: &mut C::State<S>) {
         self.has_counted = true;
         if !turns::is_known(turns::carry(from, step, to)) {
-            self.count_from(from, step, to);
+            // A copy, as a state that others are shown stays in memory.
+            let mut normal = *to;
+            self.count_from(from, step, &mut normal);
+            turns::copy(&normal, to);
         }
     }
 

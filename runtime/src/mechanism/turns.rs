@@ -83,8 +83,8 @@ pub(crate) fn carry<S: Scalar, X: MovingState<S>>(from: &X, time: S, to: &mut X)
     let Some(&since) = from.turns().last() else {
         return S::zero();
     };
-    // Their mean is at least half of any between, if those are between: two radians are less than
-    // half a turn.
+    // The mean of both speeds is at least half of the greater one. So an angle turns by less than
+    // two radians before it is counted, and half a turn is more.
     let speeds = sum_of_sizes(from.rates_slice()) + sum_of_sizes(to.rates_slice());
     let turned = speeds.fused(S::constant(0.5) * time.abs(), since);
     copy(from, to);
