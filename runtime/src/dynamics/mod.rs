@@ -23,6 +23,7 @@ mod jacobian;
 mod kept;
 pub(crate) mod likes;
 mod monitored;
+mod near;
 mod on_constraints;
 pub(crate) mod origin;
 mod secants;
@@ -99,6 +100,8 @@ pub struct Dynamics<
     forces: A,
     pub(crate) iterations: Iterations,
     pub(crate) seen: Seen<S>,
+    /// Whether turns were counted through the last step.
+    has_counted: bool,
     coordinates: PhantomData<C>,
 }
 
@@ -168,6 +171,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F, NoForces, M::Co
             forces: NoForces,
             iterations: Iterations::default(),
             seen: Seen::nothing(),
+            has_counted: false,
             coordinates: PhantomData,
         })
     }
@@ -186,6 +190,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A: Clone, C: Coordinates<M>> Clon
             forces: self.forces.clone(),
             iterations: self.iterations,
             seen: self.seen,
+            has_counted: false,
             coordinates: PhantomData,
         }
     }
@@ -230,6 +235,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
             forces: exchange(self.forces),
             iterations: self.iterations,
             seen: self.seen,
+            has_counted: false,
             coordinates: PhantomData,
         }
     }
@@ -251,6 +257,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
             forces: self.forces,
             iterations: self.iterations,
             seen: self.seen,
+            has_counted: false,
             coordinates: PhantomData,
         }
     }
@@ -392,37 +399,6 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
         } else {
             Err(Fault::StateNotFinite)
         }
-    }
-
-    /// The bodies of a state, when they stood near by a moment ago: Euler parameters keep their
-    /// signs as far as they can.
-    #[inline(always)]
-    pub(crate) fn bodies_near(&self, state: &C::State<S>, near: &M::State<S>) -> M::State<S> {
-        let mut bodies = C::bodies_near(self.own_constants(), state, near);
-        turns::copy(near, &mut bodies);
-        bodies
-    }
-
-    /// The same where they stood there some time (s) ago, with their angles counted on. Whether the
-    /// turns are known.
-    #[inline]
-    pub(crate) fn bodies_after(
-        &self,
-        state: &C::State<S>,
-        (time, near): (S, &M::State<S>),
-    ) -> (M::State<S>, bool) {
-        let mut bodies = C::bodies_near(self.own_constants(), state, near);
-        let is_known = turns::follow::<S, M>(self.constants(), near, time, &mut bodies);
-        (bodies, is_known)
-    }
-
-    /// Counts all angles of a state that was reached from another one in some time (s).
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn count_turns(&self, from: &C::State<S>, time: S, to: &mut C::State<S>) {
-        let [from, mut bodies] = [from, to].map(|state| self.bodies(state));
-        turns::count::<S, M>(self.constants(), &from, time, &mut bodies);
-        turns::copy(&bodies, to);
     }
 
     /// The state in which bodies stand and move so, or nearly so.

@@ -89,8 +89,12 @@ where
 
     #[inline]
     fn follow(&mut self, from: &C::State<S>, step: S, to: &mut C::State<S>) {
-        if turns::carry(from, step, to) > S::constant(turns::FAR) {
-            self.count_turns(from, step, to);
+        self.has_counted = true;
+        if !turns::is_known(turns::carry(from, step, to)) {
+            // A copy, as a state that others are shown stays in memory.
+            let mut normal = *to;
+            self.count_from(from, step, &mut normal);
+            turns::copy(&normal, to);
         }
     }
 

@@ -14,7 +14,7 @@ use core::ops::{Add, Mul, Neg, Sub};
 pub(crate) use columns::{Lifted, by_forward_numbers, lifted, with_differences};
 
 use crate::math::scalar::{Real, Scalar};
-use crate::state::vector::greater;
+use crate::state::sums::greater;
 
 /// A number and its derivatives along `N` directions: what is computed with it carries them along,
 /// exact to round-off (forward mode; Griewank and Walther, *Evaluating Derivatives*, chapter 3).

@@ -12,7 +12,7 @@ use core::array::from_fn;
 
 use super::Forward;
 use crate::math::scalar::Real;
-use crate::state::vector::greater;
+use crate::state::sums::greater;
 
 /// How many units of round-off of the largest derivative the error of one may be made of. So many
 /// of an element is the least relative tolerance of a control.

@@ -252,9 +252,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ) -> M::State<Forward<S, K>> {
         let known = bodies_of::<S, M>(&self.equations.constants, here);
         let motions = M::body_motions(&there.equations.constants, &there.state);
-        bodies_by::<Forward<S, K>, M>(&motions, |body, rows| {
-            let info = M::REPORT.bodies.get(body);
-            let place = info.map_or(usize::MAX, |info| info.coordinate.saturating_add(3));
+        bodies_by::<Forward<S, K>, M>(&motions, |place, rows| {
             orientation_along(&read(known.coordinates().as_slice(), place), rows)
         })
     }

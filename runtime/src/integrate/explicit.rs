@@ -96,7 +96,7 @@ macro_rules! explicit {
                     let StepStart { time, state, slope: $first } = start;
                     let $kept = kept;
                     $(
-                        let mut $inner = $first.clone();
+                        let mut $inner = crate::integrate::room_for($first);
                         let $inner = &mut $inner;
                     )*
                     $(

@@ -162,8 +162,8 @@ impl<S: Real, K: OneStep<S, Y>, Y: System<S>> Advance<S, Y> for FixedIntegration
                 return Err(refused(&self.scheme, system, from, step, outcome.err()));
             }
         };
-        system.renormalise(&mut state, None);
         system.follow(&reached.state, step, &mut state);
+        system.renormalise(&mut state, None);
         self.last.take(reached, (step, end), state);
         self.is_prepared = false;
         Ok(())

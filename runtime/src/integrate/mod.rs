@@ -197,8 +197,9 @@ pub trait System<S: Scalar> {
         })
     }
 
-    /// Counts on in a state in normal form that a step (s) has led to from another one what states
-    /// count beside their elements, see [`Vector::turns`].
+    /// Counts on in a state that a step (s) has led to from another one what states count beside
+    /// their elements, see [`Vector::turns`]. A method calls it once for every step that it takes,
+    /// before or after [`System::renormalise`].
     #[inline(always)]
     fn follow(&mut self, _from: &Self::State, _step: S, _to: &mut Self::State) {}
 
@@ -347,6 +348,14 @@ pub trait Integration<S: Real, X: Vector<S>> {
     /// not after.
     fn replace(&mut self, state: X);
 
+    /// Puts another account of angles in the place of the one of its state, see
+    /// [`Vector::turns`]: a run counts through steps that tell too little.
+    fn recount(&mut self, turns: &[S]) {
+        let mut state = self.state().clone();
+        put_turns(&mut state, turns);
+        self.replace(state);
+    }
+
     /// What it has cost so far.
     fn counts(&self) -> Counts;
 
@@ -359,6 +368,12 @@ pub trait Integration<S: Real, X: Vector<S>> {
     fn remember(&mut self, _memory: &mut Memory<'_, S>) -> bool {
         false
     }
+}
+
+/// Puts another account of angles in the place of the one of a state.
+fn put_turns<S: Scalar, X: Vector<S>>(state: &mut X, turns: &[S]) {
+    let places = state.turns_mut().iter_mut();
+    places.zip(turns).for_each(|(place, &turn)| *place = turn);
 }
 
 /// An integration under way.
@@ -529,6 +544,12 @@ impl<S: Real> TimeSpan<S> {
     }
 }
 
+/// Room for a slope of a state: zeros, which cost less than a copy where one is written.
+#[inline(always)]
+fn room_for<S: Scalar, X: Vector<S>>(state: &X) -> X {
+    state.zip(state, |_, _| S::zero())
+}
+
 /// A step, if it leads to a state that is finite; else why not, if that is known. No part of its
 /// caller: its stack is free again where a step is looked into that was refused.
 #[inline(never)]
@@ -538,7 +559,7 @@ fn attempt<S: Real, K: OneStep<S, Y>, Y: System<S>>(
     (time, state): (S, &mut Y::State),
     step: S,
 ) -> Result<(), Option<Fault>> {
-    let mut slope = state.clone();
+    let mut slope = room_for(state);
     system.stage(time, state, &mut slope)?;
     let start = StepStart {
         time,
@@ -550,9 +571,9 @@ fn attempt<S: Real, K: OneStep<S, Y>, Y: System<S>>(
     if !next.is_finite() {
         return Err(None);
     }
-    system.renormalise(&mut next, None);
     system.follow(state, step, &mut next);
     *state = next;
+    system.renormalise(state, None);
     Ok(())
 }
 

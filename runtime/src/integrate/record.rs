@@ -1,6 +1,6 @@
 //! What every integration under way keeps: where it is, and its last step.
 
-use core::mem::{replace, swap};
+use core::mem::replace;
 
 use super::{Counts, Memory, Scheme, Slopes, StepEnds, StepRecord, System, TimeSpan, named};
 use crate::error::Fault;
@@ -94,6 +94,10 @@ macro_rules! reached {
             self.reached.is_known = false;
         }
 
+        fn recount(&mut self, turns: &[S]) {
+            $crate::integrate::put_turns(&mut self.reached.state, turns);
+        }
+
         fn counts(&self) -> Counts {
             self.reached.counts
         }
@@ -131,7 +135,8 @@ impl<S: Real, X: Vector<S>> LastStep<S, X> {
     /// known.
     #[inline(always)]
     pub(super) fn take(&mut self, reached: &mut Reached<S, X>, (step, end): (S, S), state: X) {
-        swap(&mut self.first, &mut reached.slope);
+        // A copy, not an exchange, which would be two: the slope at the end is written anew.
+        self.first.clone_from(&reached.slope);
         reached.is_known = false;
         self.go(reached, (step, end), state);
     }
@@ -140,7 +145,8 @@ impl<S: Real, X: Vector<S>> LastStep<S, X> {
     #[inline(always)]
     pub(super) fn go(&mut self, reached: &mut Reached<S, X>, (step, end): (S, S), state: X) {
         reached.counts.accepted += 1;
-        self.from = replace(&mut reached.state, state);
+        self.from.clone_from(&reached.state);
+        reached.state = state;
         self.start = replace(&mut reached.time, end);
         self.step = step;
     }

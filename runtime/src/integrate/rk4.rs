@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method.
 
-use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, StepStart, System};
+use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, StepStart, System, room_for};
 use crate::error::Fault;
 use crate::math::scalar::Scalar;
 use crate::state::vector::Vector;
@@ -50,8 +50,9 @@ impl<S: Scalar, Y: System<S>> OneStep<S, Y> for Rk4 {
         let sixth = S::constant(1.0 / 6.0) * step;
         let third = sixth + sixth;
         if Y::State::PLUS_IS_COSTLY {
-            let [mut second, mut penultimate, mut last] =
-                [state.clone(), state.clone(), state.clone()];
+            let mut second = room_for(state);
+            let mut penultimate = room_for(state);
+            let mut last = room_for(state);
             let [midway, end] = state.plus_once_and_twice(half, first);
             system.stage(time + half, &midway, &mut second)?;
             let at = state.plus_beside(&midway, (half, first), [(half, &second)]);
@@ -66,7 +67,7 @@ impl<S: Scalar, Y: System<S>> OneStep<S, Y> for Rk4 {
             ];
             return Ok(state.plus_beside(&end, (step, first), terms));
         }
-        let mut slope = state.clone();
+        let mut slope = room_for(state);
         let mut next = state.plus([(sixth, first)]);
         let mut at = state.plus([(half, first)]);
         system.stage(time + half, &at, &mut slope)?;

@@ -11,11 +11,25 @@ pub(crate) fn read<S: Scalar, const N: usize>(slice: &[S], place: usize) -> [S; 
         .unwrap_or([S::zero(); N])
 }
 
-/// Writes `N` elements from a place on, as far as the slice goes.
+/// Writes `N` elements from a place on; none where the slice ends before. At once, as a loop over
+/// elements from a place that is not known costs a comparison for each.
+#[inline]
 pub(crate) fn write<S: Scalar, const N: usize>(slice: &mut [S], place: usize, values: [S; N]) {
-    for (element, value) in slice.iter_mut().skip(place).zip(values) {
-        *element = value;
+    let rest = slice.get_mut(place..);
+    if let Some(elements) = rest.and_then(|rest| rest.first_chunk_mut()) {
+        *elements = values;
     }
+}
+
+/// Takes the first `N` elements off a slice; zeros, and all there is, where it ends before.
+#[inline(always)]
+pub(crate) fn take<S: Scalar, const N: usize>(slice: &mut &[S]) -> [S; N] {
+    let (first, rest) = match slice.split_first_chunk() {
+        Some((first, rest)) => (*first, rest),
+        None => ([S::zero(); N], &[][..]),
+    };
+    *slice = rest;
+    first
 }
 
 /// `a x b`.
@@ -59,6 +73,13 @@ pub(crate) fn over<S: Real, const N: usize>(v: &[S; N], divisor: S) -> [S; N] {
         k += 1;
     }
     result
+}
+
+/// `a . b`.
+pub(crate) fn dot<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> S {
+    let [a1, a2, a3] = *a;
+    let [b1, b2, b3] = *b;
+    a1 * b1 + a2 * b2 + a3 * b3
 }
 
 /// The sum of squares.

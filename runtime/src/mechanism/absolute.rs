@@ -320,18 +320,26 @@ pub(crate) fn stabilised<S: Scalar, M: Mechanism, T: Terms>(
     gamma
 }
 
-/// Gives the Euler parameters at a place the sign of those of another state.
-pub(super) fn take_nearer_sign<S: Real>(coordinates: &mut [S], near: &[S], place: usize) {
-    let (p, q): ([S; 4], [S; 4]) = (read(coordinates, place), read(near, place));
-    let terms = p.iter().zip(&q);
+/// Euler parameters with the sign that is nearer to others.
+#[inline]
+pub(super) fn nearer_sign<S: Real>(p: [S; 4], near: &[S; 4]) -> [S; 4] {
+    let terms = p.iter().zip(near);
     let alike = terms.fold(S::zero(), |sum, (&p, &q)| p.fused(q, sum));
     if alike < S::zero() {
-        write(coordinates, place, p.map(|element| -element));
+        p.map(|element| -element)
+    } else {
+        p
     }
 }
 
+/// Gives the Euler parameters at a place the sign of those of another state.
+pub(super) fn take_nearer_sign<S: Real>(coordinates: &mut [S], near: &[S], place: usize) {
+    let p = nearer_sign(read(coordinates, place), &read(near, place));
+    write(coordinates, place, p);
+}
+
 /// Bodies with those signs of Euler parameters that are nearer to those of another state.
-pub(super) fn with_nearer_signs<S: Real, M: Mechanism>(
+fn with_nearer_signs<S: Real, M: Mechanism>(
     mut bodies: M::State<S>,
     near: &M::State<S>,
 ) -> M::State<S> {

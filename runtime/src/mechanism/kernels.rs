@@ -11,6 +11,11 @@ use crate::mechanism::report::Report;
 use crate::mechanism::switch::Switch;
 use crate::state::vector::{Array, StateParts};
 
+pub use super::pivot::Pivot;
+pub use super::terms::{
+    Chapter15, Compliant, Normalised, Orientation, Plain, Rigid, Stabilisation, Stabilised, Terms,
+};
+
 /// The state of a mechanism, with numbers of type `f64` unless another one is named:
 /// `StateOf<Arm>`, `StateOf<Arm, f32>`.
 pub type StateOf<M, S = f64> = <M as Mechanism>::State<S>;
@@ -452,139 +457,6 @@ pub trait Mechanism: Sized + 'static {
     /// `A(p) A(c)`, with Euler parameters `p c` (quaternion product). `(1, 0, 0, 0)` where the user
     /// gave principal moments, and for a particle.
     fn user_axes(body: usize) -> [f64; 4];
-}
-
-/// The smallest relative pivot of a factorisation and its joint, per lane.
-///
-/// A relative pivot is the pivot of a row over what it would be without the other rows: 1 for a row
-/// that is orthogonal to the others (in the metric of the inverse mass matrix), 0 for a row that
-/// depends on them. Where two rows determine two components of an angular acceleration, it is their
-/// determinant over that of the reference configuration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pivot<S> {
-    /// About 1 or less; 1 where no pivot had to be checked.
-    pub relative: S,
-    /// The index of the joint, as a number.
-    pub joint: S,
-}
-
-impl<S: Scalar> Pivot<S> {
-    /// No pivot needed a check.
-    #[must_use]
-    pub fn unchecked() -> Self {
-        Self {
-            relative: S::one(),
-            joint: S::zero(),
-        }
-    }
-
-    /// Takes a pivot into account from which nothing was subtracted: only zero is bad.
-    #[inline(always)]
-    #[must_use]
-    pub fn and_nonzero(self, pivot: S, joint: usize) -> Self {
-        /// The least normal number of single precision: the reciprocal of a smaller one is out of
-        /// its range. No unit leads there, as a bound between large and small would have to know.
-        const LEAST: f64 = f32::MIN_POSITIVE as f64;
-        let least = S::constant(LEAST);
-        self.and(pivot.abs().select(least, S::zero(), S::one()), joint)
-    }
-
-    /// Takes another relative pivot into account.
-    #[inline(always)]
-    #[must_use]
-    pub fn and(self, relative: S, joint: usize) -> Self {
-        // Zero over zero is a row that vanishes.
-        let relative = relative.select(S::constant(f64::INFINITY), relative, S::zero());
-        Self {
-            relative: relative.select(self.relative, relative, self.relative),
-            joint: relative.select(self.relative, S::constant(joint as f64), self.joint),
-        }
-    }
-}
-
-/// The coefficients of a formulation: `gamma* = gamma - 2 a Phi' - b^2 Phi` and the compliance `e`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stabilisation<S> {
-    /// `2 a` (1/s), the factor of `Phi'`.
-    pub rate: S,
-    /// `b^2` (1/s^2), the factor of `Phi`.
-    pub position: S,
-    /// `e`, zero for rigid constraints; `1 / alpha` for a penalty `alpha`.
-    pub compliance: S,
-}
-
-/// Which terms a formulation has: a type-level choice, so that a formulation pays for its own terms
-/// only.
-pub trait Terms: Copy + Debug + 'static {
-    /// Terms of `Phi` and `Phi'`.
-    const STABILISED: bool;
-    /// A compliance `e > 0`. Implies [`Terms::STABILISED`].
-    const COMPLIANT: bool;
-}
-
-/// Terms under which constraints neither yield nor may be violated.
-#[diagnostic::on_unimplemented(
-    message = "with the terms `{Self}` of this formulation constraints yield, or are violated for a while",
-    label = "no rigid constraints",
-    note = "`GeneralizedAlpha` solves for positions on rigid constraints: it takes `StandardLagrange`"
-)]
-pub trait Rigid: Terms {}
-
-impl Rigid for Plain {}
-
-/// Neither stabilisation nor compliance.
-#[derive(Clone, Copy, Debug)]
-pub struct Plain;
-
-/// Terms of `Phi` and `Phi'`, rigid.
-#[derive(Clone, Copy, Debug)]
-pub struct Stabilised;
-
-/// Terms of `Phi` and `Phi'`, and a compliance.
-#[derive(Clone, Copy, Debug)]
-pub struct Compliant;
-
-impl Terms for Plain {
-    const STABILISED: bool = false;
-    const COMPLIANT: bool = false;
-}
-
-impl Terms for Stabilised {
-    const STABILISED: bool = true;
-    const COMPLIANT: bool = false;
-}
-
-impl Terms for Compliant {
-    const STABILISED: bool = true;
-    const COMPLIANT: bool = true;
-}
-
-/// Whether the rates of Euler parameters are those of `p` or of `p / |p|`.
-#[doc(hidden)]
-pub trait Orientation: Copy + Debug + Default + 'static {
-    /// Whether they are those of `p / |p|`.
-    const NORMALISED_RATES: bool;
-}
-
-/// `p' = 1/2 L(p)^T w` with `p` as it is; `p` comes to length 1 after every step.
-#[doc(hidden)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Normalised;
-
-/// `p' = 1/2 L(p / |p|)^T w`, and `p` left at the length that it has: the reading behind the
-/// published counts of chapter 15 (Flores 2015), here to reproduce them.
-///
-/// The orientation then turns at `w / |p|`, and nothing brings `|p|` back: at 20 rad/s and the
-/// default tolerance nothing of it is right after 1000 s. [`Normalised`] is right at the same cost.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Chapter15;
-
-impl Orientation for Normalised {
-    const NORMALISED_RATES: bool = false;
-}
-
-impl Orientation for Chapter15 {
-    const NORMALISED_RATES: bool = true;
 }
 
 /// Refuses a mechanism with states of the user's own.

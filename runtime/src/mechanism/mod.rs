@@ -16,12 +16,14 @@ pub(crate) mod joint_report;
 pub(crate) mod kernels;
 pub(crate) mod limits;
 pub(crate) mod orientations;
+pub(crate) mod pivot;
 pub(crate) mod point;
 pub(crate) mod readout;
 pub(crate) mod relative;
 pub(crate) mod report;
 pub(crate) mod setpoint;
 pub(crate) mod switch;
+pub(crate) mod terms;
 pub(crate) mod turns;
 
 pub use coordinates::{

@@ -3,8 +3,8 @@
 use crate::error::Fault;
 use crate::math::quaternion::{from_matrix, scale, scale_near_unit_length, to_unit_length};
 use crate::math::scalar::{Real, Scalar};
-use crate::math::vec3::{read, write};
-use crate::mechanism::absolute::{take_nearer_sign, with_nearer_signs};
+use crate::math::vec3::{read, take, write};
+use crate::mechanism::absolute::{nearer_sign, take_nearer_sign};
 use crate::mechanism::coordinates::{
     AbsoluteEquations, Coordinates, Equations, EquationsIn, First, Prepared, Relative, RightSide,
 };
@@ -293,7 +293,7 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         state: &M::JointState<S>,
         near: &M::State<S>,
     ) -> M::State<S> {
-        with_nearer_signs::<S, M>(bodies_of::<S, M>(constants, state), near)
+        bodies_of_near::<S, M>(constants, state, near)
     }
 
     fn of_bodies<S: Real>(
@@ -377,29 +377,23 @@ pub(crate) fn each_body<S: Scalar, M: JointCoordinates>(
     motions: &[S],
     mut then: impl FnMut(usize, &'static BodyInfo, BodyMotion<S>),
 ) -> &[S] {
-    let mut parts = motions;
-    let mut next = |count: usize| {
-        let (first, rest) = parts.split_at_checked(count).unwrap_or((parts, &[]));
-        parts = rest;
-        first
-    };
+    // Of each body at once: parts of places that are not known cost a comparison for each.
+    let mut rest = motions;
     for (number, body) in M::REPORT.bodies.iter().enumerate() {
-        let linear = next(6);
+        let [x, y, z, u, v, w] = take(&mut rest);
         let rotation = (body.kind == BodyKind::Rigid).then(|| {
-            let angular = next(12);
-            (
-                [0, 3, 6].map(|place| read(angular, place)),
-                read(angular, 9),
-            )
+            let [a, b, c, d, e, f, g, h, i, p, q, r] = take(&mut rest);
+            ([[a, b, c], [d, e, f], [g, h, i]], [p, q, r])
         });
         let motion = BodyMotion {
-            position: read(linear, 0),
-            velocity: read(linear, 3),
+            position: [x, y, z],
+            velocity: [u, v, w],
             rotation,
         };
         then(number, body, motion);
     }
-    next(M::REPORT.auxiliaries + M::REPORT.states.len())
+    let others = M::REPORT.auxiliaries + M::REPORT.states.len();
+    rest.get(..others).unwrap_or(rest)
 }
 
 /// How the bodies of joint coordinates stand and move.
@@ -409,6 +403,21 @@ pub(crate) fn bodies_of<S: Real, M: JointCoordinates>(
 ) -> M::State<S> {
     let motions = M::body_motions(constants, state);
     let mut bodies = bodies_by::<S, M>(&motions, |_, rows| from_matrix(rows));
+    turns::copy(state, &mut bodies);
+    bodies
+}
+
+/// The same with the nearer sign of Euler parameters to those of bodies a moment ago.
+fn bodies_of_near<S: Real, M: JointCoordinates>(
+    constants: &M::JointConstants<S>,
+    state: &M::JointState<S>,
+    near: &M::State<S>,
+) -> M::State<S> {
+    let motions = M::body_motions(constants, state);
+    let near = near.coordinates().as_slice();
+    let mut bodies = bodies_by::<S, M>(&motions, |place, rows| {
+        nearer_sign(from_matrix(rows), &read(near, place))
+    });
     turns::copy(state, &mut bodies);
     bodies
 }
@@ -423,30 +432,33 @@ pub(crate) fn joint_state_of<S: Real, M: JointCoordinates>(
     state
 }
 
-/// The same of their motions; Euler parameters are made of a body's number and rotation.
+/// The same of their motions; Euler parameters are made of their place and the rotation.
+#[inline]
 pub(crate) fn bodies_by<S: Scalar, M: JointCoordinates>(
     motions: &M::BodyMotions<S>,
     euler_parameters: impl Fn(usize, &[[S; 3]; 3]) -> [S; 4],
 ) -> M::State<S> {
     let mut bodies = M::State::from_parts(Array::zeros(), Array::zeros());
-    let auxiliaries = each_body::<S, M>(motions.as_slice(), |number, body, motion| {
+    let others = each_body::<S, M>(motions.as_slice(), |_, body, motion| {
+        let [x, y, z] = motion.position;
+        let [u, v, w] = motion.velocity;
         let coordinates = bodies.coordinates_mut().as_mut_slice();
-        write(coordinates, body.coordinate, motion.position);
-        if let Some((rows, _)) = &motion.rotation {
+        let Some((rows, [p, q, r])) = motion.rotation else {
+            write(coordinates, body.coordinate, [x, y, z]);
             write(
-                coordinates,
-                body.coordinate + 3,
-                euler_parameters(number, rows),
+                bodies.velocities_mut().as_mut_slice(),
+                body.velocity,
+                [u, v, w],
             );
-        }
+            return;
+        };
+        let [e0, e1, e2, e3] = euler_parameters(body.coordinate + 3, &rows);
+        write(coordinates, body.coordinate, [x, y, z, e0, e1, e2, e3]);
         let velocities = bodies.velocities_mut().as_mut_slice();
-        write(velocities, body.velocity, motion.velocity);
-        if let Some((_, spin)) = motion.rotation {
-            write(velocities, body.velocity + 3, spin);
-        }
+        write(velocities, body.velocity, [u, v, w, p, q, r]);
     });
     let coordinates = bodies.coordinates_mut().as_mut_slice();
-    for (place, &value) in auxiliaries.iter().enumerate() {
+    for (place, &value) in others.iter().enumerate() {
         write(coordinates, M::REPORT.coordinates + place, [value]);
     }
     bodies

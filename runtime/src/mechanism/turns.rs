@@ -11,6 +11,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::readout::AngleParts;
+use crate::state::sums::sum_of_sizes;
 use crate::state::vector::{MovingState, Vector};
 
 /// How far angles may have turned (rad) since they were counted.
@@ -82,18 +83,21 @@ pub(crate) fn carry<S: Scalar, X: MovingState<S>>(from: &X, time: S, to: &mut X)
     let Some(&since) = from.turns().last() else {
         return S::zero();
     };
-    let speed = |state: &X| {
-        let rates = state.rates_slice().iter();
-        rates.fold(S::zero(), |sum, rate| sum + rate.abs())
-    };
-    // The greater of both.
-    let speed = -(-speed(from)).min(-speed(to));
-    let turned = speed.fused(time.abs(), since);
+    // The mean of both speeds is at least half of the greater one. So an angle turns by less than
+    // two radians before it is counted, and half a turn is more.
+    let speeds = sum_of_sizes(from.rates_slice()) + sum_of_sizes(to.rates_slice());
+    let turned = speeds.fused(S::constant(0.5) * time.abs(), since);
     copy(from, to);
     if let Some(since) = to.turns_mut().last_mut() {
         *since = turned;
     }
     turned
+}
+
+/// Whether angles that may have turned so far (rad) since they were counted need no count.
+#[inline]
+pub(crate) fn is_known<S: Real>(since: S) -> bool {
+    since <= S::constant(FAR)
 }
 
 /// Brings the account of bodies up to date that were left some time (s) ago. Whether it is known:
@@ -105,8 +109,7 @@ pub(crate) fn follow<S: Real, M: Mechanism>(
     time: S,
     to: &mut M::State<S>,
 ) -> bool {
-    let is_far = carry(from, time, to) > S::constant(FAR);
-    !is_far || count::<S, M>(constants, from, time, to)
+    is_known(carry(from, time, to)) || count::<S, M>(constants, from, time, to)
 }
 
 /// Counts all angles of a state that was reached from another one in some time (s); whether they
@@ -139,6 +142,7 @@ pub(crate) fn count_through<S: Real, M: Mechanism>(
         let sum = S::constant(4.0).fused(between, begin + end);
         sum * S::constant(6.0_f64.recip())
     });
+    are_counted(to);
 }
 
 /// Counts all angles by the means of their rates, of a joint whose rates at both ends are these;
@@ -163,8 +167,16 @@ fn count_by<S: Real, M: Mechanism>(
             *counted = end;
         }
     }
-    if let Some(since) = to.turns_mut().last_mut() {
-        *since = S::zero();
+    // Where they are not known, they are as far as before.
+    if is_sure {
+        are_counted(to);
     }
     is_sure
+}
+
+/// Says that angles are counted here.
+fn are_counted<S: Scalar, X: Vector<S>>(state: &mut X) {
+    if let Some(since) = state.turns_mut().last_mut() {
+        *since = S::zero();
+    }
 }

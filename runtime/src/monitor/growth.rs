@@ -10,7 +10,8 @@ use super::warning::Warning;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
-use crate::state::vector::{Array as _, StateParts as _, greater};
+use crate::state::sums::greater;
+use crate::state::vector::{Array as _, StateParts as _};
 
 /// What derivatives by a number of the size of one grow to at most in a motion of a radian, times
 /// some safety. Those by a length or a rate grow with the radians.

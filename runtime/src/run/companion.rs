@@ -19,7 +19,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::run::followed::bodies_within;
 use crate::run::post_step::PostStabilisation;
-use crate::state::vector::{Array, StateParts};
+use crate::state::vector::{Array, StateParts, Vector as _};
 
 /// The least error (m, rad) that is followed.
 const LEAST: f64 = 1e-15;
@@ -333,7 +333,12 @@ where
             if self.is_open && integration.time() <= time {
                 self.is_open = false;
                 let (near, end) = ((self.time, &self.bodies), integration.time());
-                self.bodies = bodies_within(&mut self.dynamics, integration, near, end)?;
+                if !self.dynamics.knows_turns(integration.state()) {
+                    let bodies = bodies_within(&mut self.dynamics, integration, near, end)?;
+                    integration.recount(bodies.turns());
+                }
+                let state = integration.state();
+                self.bodies = self.dynamics.bodies_counted(state, &self.bodies);
                 self.time = end;
                 if let Some(stabilisation) = stabilisation {
                     let constants = self.dynamics.constants();

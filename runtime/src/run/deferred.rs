@@ -57,13 +57,12 @@ impl<X> Deferred<X> {
         S::constant(self.elapsed)
     }
 
-    /// The state that waits, to be converted now, and how long ago (s) the bodies are known of.
+    /// The state that waits, to be converted now.
     #[inline]
-    pub(crate) fn take<S: Real>(&mut self) -> Option<(X, S)> {
-        let elapsed = self.elapsed();
+    pub(crate) fn take(&mut self) -> Option<X> {
         let state = self.state.take();
         self.clear();
-        state.map(|state| (state, elapsed))
+        state
     }
 
     /// Forgets the state: bodies of a later one are known.

@@ -9,7 +9,8 @@
 //! run reads, without a heap. A run is compiled once for both: a resumed integration is begun as it
 //! was, and then its memory is replaced.
 //!
-//! `followed.rs` counts the turns of angles within a step, in the account that states carry.
+//! `taken.rs` takes a step. The integration counts the turns of angles through it, in the account
+//! that states carry. Where that tells too little, `followed.rs` counts them within the step.
 //!
 //! `passing.rs` and `passages.rs` lead a run through instants at which two points meet that a force
 //! acts between.
@@ -56,6 +57,7 @@ pub(crate) mod segments;
 pub(crate) mod simulate;
 pub(crate) mod simulation;
 pub(crate) mod stepper;
+mod taken;
 #[cfg(feature = "std")]
 pub(crate) mod trajectory;
 pub(crate) mod within;

@@ -22,7 +22,7 @@ use crate::run::past::Past;
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::RunReport;
 use crate::run::sample::Sample;
-use crate::run::within::{better_end, judge, look_within};
+use crate::run::within::judge;
 
 /// A run under way.
 pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> {
@@ -49,15 +49,27 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
     pub(crate) gone: Option<S>,
 }
 
-/// A step that was taken, and looked into for the monitor.
-struct Taken<S: Real, M: Mechanism> {
+/// A step that was taken, and looked into for the monitor. In a place of its own over all steps, as
+/// it is long and mostly empty.
+pub(super) struct Taken<S: Real, M: Mechanism> {
     /// The first event within it.
-    event: Option<(S, M::State<S>)>,
+    pub(super) event: Option<(S, M::State<S>)>,
     /// Where a rule of higher order would have led, where that is asked.
-    better: Option<M::State<S>>,
+    pub(super) better: Option<M::State<S>>,
     /// Evaluations so far, and those of them that looked into the step.
-    evaluations: usize,
-    looks: usize,
+    pub(super) evaluations: usize,
+    pub(super) looks: usize,
+}
+
+impl<S: Real, M: Mechanism> Taken<S, M> {
+    const fn none() -> Self {
+        Self {
+            event: None,
+            better: None,
+            evaluations: 0,
+            looks: 0,
+        }
+    }
 }
 
 /// Of how many steps a closure is asked twice at the end, beside the first ones: now and then, at
@@ -275,12 +287,13 @@ where
         }
         let budget = integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.counts.evaluations);
+        let mut taken = Taken::none();
         while integration.time() < span.end {
             let left = span.end - last_good.0;
             let longest = integrator.fixed_step().map_or(left, |step| step.min(left));
-            let Some(taken) = self.take(&mut integration, last_good, longest)? else {
+            if !self.take(&mut integration, last_good, longest, &mut taken)? {
                 break;
-            };
+            }
             let event = taken.event.as_ref();
             let reached = event.map_or(integration.time(), |&(time, _)| time);
             #[cfg(feature = "std")]
@@ -309,7 +322,7 @@ where
             if let Some(&(time, bodies)) = event {
                 self.observe_event(integration.estimate(), (time, bodies), last_good)?;
             } else {
-                self.observe(&mut integration, taken.better, last_good)?;
+                self.observe(&mut integration, taken.better.as_ref(), last_good)?;
             }
             #[cfg(feature = "std")]
             self.record_end(last_good);
@@ -344,41 +357,6 @@ where
         let counts = integration.counts().without(begun.of_monitor);
         self.counts = self.counts.plus(counts);
         Ok(())
-    }
-
-    /// Takes a step, and looks into it for events and for the monitor. The bodies stood near by at
-    /// its start, and it is no longer than some seconds. `None` of one that must be shorter.
-    #[inline]
-    fn take<K: Advance<S, Dynamics<S, M, F, A, C>>>(
-        &mut self,
-        integration: &mut K,
-        &(start, ref near): &(S, M::State<S>),
-        longest: S,
-    ) -> Result<Option<Taken<S, M>>, Fault> {
-        if let Err(fault) = integration.advance(&mut self.dynamics) {
-            let is_shortened = self.tries_again((start, near), longest);
-            return if is_shortened { Ok(None) } else { Err(fault) };
-        }
-        if !self.is_taken(integration, (start, near))? {
-            return Ok(None);
-        }
-        let event = self.event_within(integration, (start, near))?;
-        let before = integration.counts().evaluations;
-        let mut better = None;
-        if let Some(monitor) = &mut self.monitor {
-            if event.is_none() {
-                better = better_end(monitor, &mut self.dynamics, integration, near);
-            }
-            let dynamics = &mut self.dynamics;
-            look_within(monitor, dynamics, integration, near, event.as_ref());
-        }
-        let evaluations = integration.counts().evaluations;
-        Ok(Some(Taken {
-            event,
-            better,
-            evaluations,
-            looks: evaluations.saturating_sub(before),
-        }))
     }
 
     /// Shows the states at reporting times within the last step up to a time, until the observer
@@ -428,19 +406,18 @@ where
     fn observe<K: Advance<S, Dynamics<S, M, F, A, C>>>(
         &mut self,
         integration: &mut K,
-        better: Option<M::State<S>>,
+        better: Option<&M::State<S>>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
         let time = integration.time();
-        let since = last_good.0 - self.deferred.elapsed();
         if self.may_defer() && self.deferred.defer(integration.state(), time - last_good.0) {
             last_good.0 = time;
             self.steps = self.steps.saturating_add(1);
             self.log.unseen += 1;
             return Ok(());
         }
-        let near = (since, &last_good.1);
-        let mut state = bodies_within(&mut self.dynamics, integration, near, time)?;
+        let near = &last_good.1;
+        let mut state = self.dynamics.bodies_counted(integration.state(), near);
         if let Some(stabilisation) = self.stabilisation {
             state = self.stabilised(stabilisation, time, state)?;
             let state = self.dynamics.nearest_to(&state, integration.state());
@@ -453,7 +430,7 @@ where
             integration.replace(held);
         }
         if let (Some(monitor), Some(better)) = (&mut self.monitor, better) {
-            judge(monitor, &self.dynamics, (time, &state), &better);
+            judge(monitor, &self.dynamics, (time, &state), better);
         }
         let estimate = integration.estimate();
         self.accept((time, integration.state()), state, estimate, last_good)
@@ -468,11 +445,9 @@ where
 
     /// Converts the last good state to bodies, if that was deferred.
     #[inline]
-    fn convert(&mut self, last_good: &mut (S, M::State<S>)) {
-        if let Some((state, elapsed)) = self.deferred.take() {
-            // Nothing has turned far: its turns are known.
-            let near = (elapsed, &last_good.1);
-            (last_good.1, _) = self.dynamics.bodies_after(&state, near);
+    pub(super) fn convert(&mut self, last_good: &mut (S, M::State<S>)) {
+        if let Some(state) = self.deferred.take() {
+            last_good.1 = self.dynamics.bodies_counted(&state, &last_good.1);
         }
     }
 

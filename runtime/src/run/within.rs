@@ -22,11 +22,10 @@ const COARSEST: usize = 2;
 /// in half a step.
 const DIVISION: f64 = 0.44;
 
-/// Where a rule of higher order would have led in the last step of an integration, of some steps of
-/// a method that is judged. The bodies stood near by a moment ago.
+/// Where a rule of higher order would have led in the last step of an integration. The bodies stood
+/// near by a moment ago.
 #[inline]
 pub(crate) fn better_end<S, M, F, A, C, K>(
-    monitor: &Monitor<S, M>,
     dynamics: &mut Dynamics<S, M, F, A, C>,
     integration: &K,
     near: &M::State<S>,
@@ -39,9 +38,6 @@ where
     C: Coordinates<M>,
     K: Advance<S, Dynamics<S, M, F, A, C>>,
 {
-    if !monitor.judges() {
-        return None;
-    }
     let (seen, iterations) = (dynamics.seen(), dynamics.iterations());
     // Where there is a fault the run will find it.
     let better = integration.better_end(dynamics).ok().flatten();

@@ -3,10 +3,10 @@
 use crate::math::scalar::{Real, Scalar};
 use crate::math::versine;
 use crate::state::each::EachOfJoints;
-use crate::state::vector::{
-    Vector, are_of_one_turn, greater, greatest, plus, shares, weighted_norm, zero_if_finite,
-    zero_if_finite_after,
+use crate::state::sums::{
+    greater, greatest, plus, shares, weighted_norm, zero_if_finite, zero_if_finite_after,
 };
+use crate::state::vector::{Vector, are_of_one_turn};
 
 /// The state of a mechanism in joint coordinates: a pair (cosine, sine) for the angle of every
 /// turning joint, further coordinates, rates.
@@ -65,7 +65,7 @@ use crate::state::vector::{
 ///
 /// Beside these, the state of a mechanism counts the turns of joints that have an angle: `A`
 /// numbers, see [`Vector::turns`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Copy, Debug)]
 pub struct JointState<
     S,
     const TURNS: usize,
@@ -77,6 +77,16 @@ pub struct JointState<
     pub(crate) rest: [S; REST],
     pub(crate) rates: [S; RATES],
     pub(crate) turns: [S; A],
+}
+
+/// At once, not part by part.
+impl<S: Copy, const TURNS: usize, const REST: usize, const RATES: usize, const A: usize> Clone
+    for JointState<S, TURNS, REST, RATES, A>
+{
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
 }
 
 /// Equal numbers, and no joint that is a turn further on.

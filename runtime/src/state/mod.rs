@@ -12,6 +12,8 @@
 
 pub(crate) mod each;
 pub(crate) mod joint_state;
+pub(crate) mod sums;
+pub(crate) mod traits;
 pub(crate) mod vector;
 
 pub use each::{EachOfJoints, EachOfState};

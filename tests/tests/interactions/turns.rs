@@ -163,3 +163,26 @@ fn a_rod_falls_onto_the_near_one_of_limits_far_apart() {
         .expect("it falls");
     assert!((lowest + 1.0).abs() < 1e-9, "{lowest}");
 }
+
+#[test]
+fn a_law_reads_the_angle_that_was_counted_within_a_step() {
+    // The rate is 100 t^3: half of what it is at the end of the first step is four turns too many.
+    let (gearbox, shaft) = (Gearbox::default(), Gearbox::HANDLES.input_shaft);
+    let read = Cell::new(0.0);
+    let turned = |time: f64| 25.0 * time.powi(4);
+    Simulation::new(&gearbox, StandardLagrange, Rk4::every(1.0))
+        .joint_coordinates()
+        .forces(|time, _, loads| {
+            if time == 1.0 {
+                // The last time at the start of the second step.
+                read.set(loads.view().angle(shaft));
+            }
+            loads.moment_between(shaft, 0.02 * 300.0 * time * time);
+        })
+        .run(0.0..=2.0, every_step(), |sample| {
+            let (angle, time) = (sample.angle(shaft), sample.time());
+            assert!((angle - turned(time)).abs() < 1e-9, "{angle} at {time}");
+        })
+        .expect("it turns");
+    assert!((read.get() - turned(1.0)).abs() < 1e-9, "{}", read.get());
+}

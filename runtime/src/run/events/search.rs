@@ -33,17 +33,23 @@ where
     A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
+    /// Whether an event may be found within a step.
+    #[inline]
+    pub(crate) fn looks_for_events(&self) -> bool {
+        let always = A::INTERACTS || Switching::<S, M>::watches();
+        let watches = |hybrid: &Hybrid<'_, S, M>| hybrid.watches || always;
+        self.hybrid.as_ref().is_some_and(watches)
+    }
+
     /// The time and the state of the first event within the last step, which began at a time where
     /// the bodies stood near by; before the step is corrected or shown to the monitor.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn event_within<K: Advance<S, Dynamics<S, M, F, A, C>>>(
         &mut self,
         integration: &mut K,
         (start, near): (S, &M::State<S>),
     ) -> Result<Found<S, M>, Fault> {
-        let switches = Switching::<S, M>::watches();
-        let watches = |hybrid: &&mut Hybrid<'_, S, M>| hybrid.watches || A::INTERACTS || switches;
-        let Some(hybrid) = self.hybrid.as_mut().filter(watches) else {
+        let Some(hybrid) = &mut self.hybrid else {
             return Ok(None);
         };
         let seen = self.dynamics.seen();

@@ -1,0 +1,116 @@
+//! Sums over the elements of a part of a state.
+
+use crate::math::scalar::{Real, Scalar};
+
+/// [`Vector::plus`] of a part of a state.
+#[inline(always)]
+pub(crate) fn plus<S: Scalar, X, const N: usize>(
+    from: &[S; N],
+    terms: &[(S, &X)],
+    part: impl Fn(&X) -> &[S; N],
+) -> [S; N] {
+    let mut result = *from;
+    for (factor, direction) in terms {
+        for (element, slope) in result.iter_mut().zip(part(direction)) {
+            *element = slope.fused(*factor, *element);
+        }
+    }
+    result
+}
+
+/// [`Vector::weighted_norm`] of a part of a state.
+#[inline(always)]
+pub(crate) fn weighted_norm<S: Real, X, const N: usize>(
+    [from, to]: [&[S; N]; 2],
+    floor: S,
+    terms: &[(S, &X)],
+    part: impl Fn(&X) -> &[S; N],
+) -> S {
+    let mut ratio = plus(&[S::zero(); N], terms, part);
+    for ((ratio, x), y) in ratio.iter_mut().zip(from).zip(to) {
+        let scale = greater(greater(x.abs(), y.abs()), floor);
+        *ratio = ratio.abs().quotient(scale);
+    }
+    greatest(&ratio)
+}
+
+/// Of a part of a state what [`Real::largest_share`] takes.
+pub(crate) fn shares<S: Real, const N: usize>(
+    [from, to]: [&[S; N]; 2],
+    increments: [S; N],
+) -> impl Iterator<Item = [S; 3]> + Clone {
+    let ends = from.iter().zip(to);
+    increments
+        .into_iter()
+        .zip(ends)
+        .map(|(increment, (&x, &y))| [increment, x, y])
+}
+
+/// The greater of two numbers; the first if either is NaN.
+#[inline(always)]
+pub(crate) fn greater<S: Real>(a: S, b: S) -> S {
+    if a < b { b } else { a }
+}
+
+/// The greatest of non-negative numbers; NaN if one is NaN.
+///
+/// Four places at once, and NaN looked for apart, so that the comparisons do not wait for each
+/// other.
+#[inline(always)]
+pub(crate) fn greatest<S: Real>(elements: &[S]) -> S {
+    let mut lanes = [S::zero(); 4];
+    let mut ordered = true;
+    for chunk in elements.chunks(4) {
+        for (lane, &element) in lanes.iter_mut().zip(chunk) {
+            ordered &= element >= S::zero();
+            *lane = greater(*lane, element);
+        }
+    }
+    let [a, b, c, d] = lanes;
+    if ordered {
+        greater(greater(a, b), greater(c, d))
+    } else {
+        S::constant(f64::NAN)
+    }
+}
+
+/// The sum of the sizes of all elements, by two sums that do not wait for each other.
+#[inline(always)]
+pub(crate) fn sum_of_sizes<S: Scalar>(elements: &[S]) -> S {
+    let mut lanes = [S::zero(); 2];
+    for chunk in elements.chunks(2) {
+        for (lane, element) in lanes.iter_mut().zip(chunk) {
+            *lane = *lane + element.abs();
+        }
+    }
+    let [a, b] = lanes;
+    a + b
+}
+
+/// A sum and -0 times all elements: the sum where these are finite, else NaN, as is -0 times any
+/// other number, and every sum with NaN. A comparison for each would be more.
+///
+/// By -0, because what is known to be +0 then changes no sum that begins with -0, and costs
+/// nothing.
+#[inline(always)]
+pub(crate) fn zero_if_finite_after<S: Real>(sum: S, elements: &[S]) -> S {
+    let add = |sum, element: &S| element.fused(-S::zero(), sum);
+    elements.iter().fold(sum, add)
+}
+
+/// The same from -0 on, of many four places at once, as in [`greatest`]; for few, one sum after the
+/// other is less than to bring four together.
+#[inline(always)]
+pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
+    if elements.len() <= 4 {
+        return zero_if_finite_after(-S::zero(), elements);
+    }
+    let mut lanes = [-S::zero(); 4];
+    for chunk in elements.chunks(4) {
+        for (lane, element) in lanes.iter_mut().zip(chunk) {
+            *lane = element.fused(-S::zero(), *lane);
+        }
+    }
+    let [a, b, c, d] = lanes;
+    (a + b) + (c + d)
+}
