@@ -281,6 +281,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
                 status.held = self.interaction.quantity.value(scene);
             }
             status.mode = mode;
+            status.since = scene.time;
             (status.effort, status.share) = (effort, effort);
         });
         let reading = self.reading(scene);
