@@ -121,3 +121,48 @@ fn stiction_holds_what_never_turned() {
     stays::<Relative>();
     stays::<Absolute>();
 }
+
+/// With its stiction the brake would leave the clutch more than its capacity, with its friction
+/// less: the brake slides, and the clutch sticks. Both accelerate by 6.8 N m over 0.12 kg m^2.
+fn sticks_once_the_brake_slides<C: Coordinates<Gearbox>>() {
+    let gearbox = Gearbox {
+        torque: -1.0,
+        load: 6.0,
+        ..Gearbox::default()
+    };
+    let h = Gearbox::HANDLES;
+    let interactions = [
+        Interaction::clutch(h.input_shaft.angle(), h.output_shaft.angle(), 1.0, 0.45),
+        Interaction::brake(h.input_shaft.angle(), 0.2).stiction(0.5),
+    ];
+    let wanted = -0.1 * 6.8 / 0.12;
+    let report = gearbox
+        .simulation(StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .interactions(interactions)
+        .run(0.0..=0.1, every(0.1), |_| ())
+        .expect("it runs");
+    let mut stepper = Stepper::<f64, _, _, _>::new(&gearbox, StandardLagrange, Rk4)
+        .expect("it is prepared")
+        .coordinates::<C>()
+        .interactions(interactions);
+    let mut state = stepper.initial_state().expect("a state");
+    for _ in 0..100 {
+        stepper.step(&mut state, 1e-3).expect("it steps");
+    }
+    assert_eq!(stepper.mode(0), Ok(InteractionMode::Sticking));
+    assert_eq!(stepper.mode(1), Ok(InteractionMode::SlidingDown));
+    for bodies in [report.state, stepper.bodies(&state)] {
+        let view = stepper.view(&bodies);
+        for shaft in [h.input_shaft, h.output_shaft] {
+            let rate = view.angle_rate(shaft);
+            assert!((rate - wanted).abs() < 1e-9, "{rate} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn a_clutch_sticks_once_the_brake_beside_it_slides() {
+    sticks_once_the_brake_slides::<Relative>();
+    sticks_once_the_brake_slides::<Absolute>();
+}
