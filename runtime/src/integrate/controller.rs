@@ -25,8 +25,8 @@ pub struct Tolerance<S> {
 }
 
 impl<S: Real> Tolerance<S> {
-    /// That of a companion: a sixteenth, or less of that where the number type has no digits for it.
-    /// Then, three times as much: both differ by twice the error of the first.
+    /// That of a companion: a sixteenth, or as little as the number type has digits for. Where that
+    /// is hardly less, three times as much: both differ by twice the error of the first.
     pub(super) fn of_companion(self) -> Self {
         let least = S::constant(LEAST) * S::EPSILON;
         let relative = self.relative.max(least);
