@@ -66,6 +66,9 @@ pub struct AugmentedLagrangian<S> {
     pub is_exact: bool,
 }
 
+/// The least tolerance that is given by default, in `EPSILON`.
+const LEAST: f64 = 64.0;
+
 /// The largest `|D u' - gamma*|` of an evaluation that did not converge, relative to the terms of
 /// its row; and the largest change by the last of an exact number of solutions, relative to the
 /// accelerations.
@@ -76,7 +79,7 @@ impl<S: Real> AugmentedLagrangian<S> {
     /// the number type) and at most 20 iterations.
     #[must_use]
     pub fn new(alpha: S, omega: S, mu: S) -> Self {
-        let tolerance = S::constant(1e-10).max(S::constant(64.0) * S::EPSILON);
+        let tolerance = S::constant(1e-10).max(S::constant(LEAST) * S::EPSILON);
         Self {
             alpha,
             omega,
@@ -136,6 +139,17 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
         }
         penalty::checked(self.radian)?;
         penalty::stabilisation(self.alpha, self.omega, self.mu)
+    }
+
+    // Of a bias that is left, one more solution leaves next to nothing.
+    fn companion(&self) -> Self {
+        let least = S::constant(LEAST) * S::EPSILON;
+        let finer = (self.tolerance * S::constant(1.0 / 16.0)).max(least);
+        Self {
+            tolerance: finer.min(self.tolerance),
+            max_iterations: self.max_iterations.saturating_add(1),
+            ..*self
+        }
     }
 
     fn radian(&self) -> S {

@@ -78,8 +78,9 @@ pub trait Formulation<S: Real>: Copy + Debug {
     }
 
     /// The formulation for a second run, by which the error of the first is estimated
-    /// ([`Simulation::verified`](crate::Simulation::verified)). One with a compliance has twice of
-    /// it there: both differ by what the first is off by.
+    /// ([`Simulation::verified`](crate::Simulation::verified)): nearer to the constraints, for what
+    /// does not go with the steps. A penalty has half its compliance there: both differ by half of
+    /// what the first is off by.
     #[must_use]
     fn companion(&self) -> Self {
         *self

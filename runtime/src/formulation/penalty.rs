@@ -66,8 +66,9 @@ impl<S: Real> Formulation<S> for Penalty<S> {
         stabilisation(self.alpha, self.omega, self.mu)
     }
 
+    // With less of it, errors of steps could take away what the bias differs by.
     fn companion(&self) -> Self {
-        let alpha = S::constant(0.5) * self.alpha;
+        let alpha = S::constant(2.0) * self.alpha;
         Self { alpha, ..*self }
     }
 

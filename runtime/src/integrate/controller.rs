@@ -8,6 +8,9 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Vector;
 
+/// What a control may be asked for relative to an element, in `EPSILON`.
+const LEAST: f64 = 100.0;
+
 /// The error to be allowed in a step: `relative * max(|y|, absolute / relative)` for every element
 /// of the state.
 ///
@@ -22,20 +25,18 @@ pub struct Tolerance<S> {
 }
 
 impl<S: Real> Tolerance<S> {
-    /// That of a companion: a sixteenth, or sixteen times as much where the number type has no
-    /// digits for that.
+    /// That of a companion: a sixteenth, or as little as the number type has digits for. Where that
+    /// is hardly less, three times as much: both differ by twice the error of the first.
     pub(super) fn of_companion(self) -> Self {
-        /// What a control may be asked for, in units of round-off.
-        const LEAST: f64 = 256.0;
-        let sixteenth = S::constant(1.0 / 16.0);
-        let is_fine = self.relative * sixteenth < S::constant(LEAST) * S::EPSILON;
-        let factor = if is_fine {
-            S::constant(16.0)
+        let least = S::constant(LEAST) * S::EPSILON;
+        let relative = self.relative.max(least);
+        let factor = if relative >= S::constant(4.0) * least {
+            least.quotient(relative).max(S::constant(1.0 / 16.0))
         } else {
-            sixteenth
+            S::constant(3.0)
         };
         Self {
-            relative: self.relative * factor,
+            relative: relative * factor,
             absolute: self.absolute * factor,
         }
     }
@@ -129,7 +130,7 @@ impl<S: Real> Controller<S> {
         let absolute = positive("absolute tolerance", tolerance.absolute)?;
         let duration = span.duration()?;
         positive("time to the first output", span.first_output)?;
-        let relative = relative.max(S::constant(100.0) * S::EPSILON);
+        let relative = relative.max(S::constant(LEAST) * S::EPSILON);
         let set = |name, step: Option<S>| step.map(|step| positive(name, step)).transpose();
         let largest = set("largest step", limits.largest)?;
         let least = set("least step", limits.least)?.unwrap_or(S::zero());

@@ -117,8 +117,10 @@ impl<S: Real> Approach<S> {
             if change > noted * self.highest && motion > S::zero() {
                 self.steepest = self.steepest.max(change.quotient(motion));
             }
-            // Pivots that hardly vary tell of no such configuration, however long the step is.
-            if roots < S::constant(VARIED) * self.highest {
+            // Pivots that hardly vary tell of no such configuration, however long the step is. Nor
+            // do those that have changed too slowly so far: no step is looked into for them.
+            let is_lower = roots < S::constant(VARIED) * self.highest;
+            if is_lower && motion * self.slope() > roots {
                 self.widest = self.widest.max(motion.quotient(roots));
             }
         }
@@ -301,6 +303,18 @@ mod tests {
             approach.step(f64::from(k), 1.0 - 0.02 * f64::from(k), 1e6);
         }
         assert!(!approach.may_have_passed());
+    }
+
+    /// A coach goes on by a radian a step, and what hangs in it turns by a fiftieth.
+    #[test]
+    fn motion_that_changes_no_pivot_passes_none() {
+        let mut approach = Approach::new();
+        for k in -75..=75 {
+            let angle = 0.02 * f64::from(k);
+            let pivot = 0.5 * (angle.sin().powi(2) + 0.05 * 0.05);
+            approach.step(f64::from(k), pivot, 1.0);
+        }
+        assert!(approach.fall() > 2e-3 && !approach.may_have_passed());
     }
 
     #[test]

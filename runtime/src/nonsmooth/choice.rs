@@ -23,6 +23,9 @@ const NO_ACCELERATION: f64 = 256.0;
 /// the forces would give it without constraints.
 const TURNING: f64 = 1e-9;
 
+/// Accelerations that differ by less than this part are alike: what is symmetric slides together.
+const ALIKE: f64 = 1e-6;
+
 /// What is held blocks a quantity of which it leaves less than this part of its compliance; at
 /// least so many `EPSILON`.
 const BLOCKED: f64 = 1e-9;
@@ -72,36 +75,16 @@ where
         let diagonal = columns.delassus[index][index];
         diagonal.max(S::zero()).sqrt()
     });
-    let mut strength = strength_of(&problem, &solution, &roots);
-    // What begins to slide has the friction of sliding: others may follow.
-    for _ in 0..K {
-        let mut is_changed = false;
-        let at_work = (strength, &roots);
-        let keeps_shares = loads.is_some();
-        let can_be_held =
-            held_at_bounds(list, &problem, &solution, at_work, &sliding, keeps_shares);
-        for (index, tracked) in list.iter().enumerate() {
-            let is_friction = tracked.friction().is_some();
-            let next = (tracked.status.get().next, sliding[index]);
-            if !is_friction || next != (Next::Still, None) {
-                continue;
-            }
-            let capacity = problem.upper[index];
-            let is_held = can_be_held[index];
-            let Some(sign) = begins_to_slide(capacity, &solution, (index, is_held)) else {
-                continue;
-            };
-            sliding[index] = Some(sign);
-            let load = capacities.load(index, &solution.efforts);
-            let (effort, _) = capacities.bounds(index, sliding[index], load);
-            is_changed |= problem.lower[index] != effort && problem.upper[index] != effort;
-        }
-        if !is_changed {
+    // What begins to slide has the friction of sliding, and others may be held then.
+    for _ in 0..=K {
+        let at_work = (strength_of(&problem, &solution, &roots), &roots);
+        let beginning = beginning(&capacities, &problem, &solution, at_work, &sliding);
+        if !begin(&capacities, &problem, &solution, beginning, &mut sliding) {
             break;
         }
         solution = capacities.solved(setting, &mut problem, &sliding)?;
-        strength = strength_of(&problem, &solution, &roots);
     }
+    let strength = strength_of(&problem, &solution, &roots);
     if let Some(loads) = &loads {
         let holds = solution.places.map(|place| place == Place::Inside);
         let slides = sliding.map(|sign| sign.is_some());
@@ -144,6 +127,69 @@ where
     }
     mark_blocked(list, &columns.delassus);
     Ok(())
+}
+
+/// The friction at rest that begins to slide in a solution: the sign of its rate, and by how much
+/// it is accelerated, over the root of its compliance.
+fn beginning<S: Real, M: Mechanism, const K: usize>(
+    capacities: &Capacities<'_, S, M, K>,
+    problem: &BoxProblem<S, K>,
+    solution: &BoxSolution<S, K>,
+    at_work: (S, &[S; K]),
+    sliding: &[Option<S>; K],
+) -> [Option<(S, S)>; K] {
+    let (list, keeps_shares) = (capacities.list, capacities.loads.is_some());
+    let can_be_held = held_at_bounds(list, problem, solution, at_work, sliding, keeps_shares);
+    core::array::from_fn(|index| {
+        let tracked = &list[index];
+        tracked.friction()?;
+        if (tracked.status.get().next, sliding[index]) != (Next::Still, None) {
+            return None;
+        }
+        let is_held = can_be_held[index];
+        let sign = begins_to_slide(problem.upper[index], solution, (index, is_held))?;
+        let root = at_work.1[index];
+        let acceleration = solution.residuals[index].abs().quotient(root);
+        let is_free = root > S::zero();
+        Some((sign, if is_free { acceleration } else { S::zero() }))
+    })
+}
+
+/// Lets friction slide; whether an effort has changed by that. Of those whose stiction is more than
+/// their friction only what is accelerated most goes first: without its stiction the others may
+/// stick.
+fn begin<S: Real, M: Mechanism, const K: usize>(
+    capacities: &Capacities<'_, S, M, K>,
+    problem: &BoxProblem<S, K>,
+    solution: &BoxSolution<S, K>,
+    beginning: [Option<(S, S)>; K],
+    sliding: &mut [Option<S>; K],
+) -> bool {
+    let mut most = None;
+    let mut changes = [false; K];
+    for (index, beginning) in beginning.iter().enumerate() {
+        let Some((sign, acceleration)) = *beginning else {
+            continue;
+        };
+        let load = capacities.load(index, &solution.efforts);
+        let (effort, _) = capacities.bounds(index, Some(sign), load);
+        changes[index] = problem.lower[index] != effort && problem.upper[index] != effort;
+        if changes[index] && most.is_none_or(|most| acceleration > most) {
+            most = Some(acceleration);
+        }
+    }
+    for (index, beginning) in beginning.iter().enumerate() {
+        let Some((sign, acceleration)) = *beginning else {
+            continue;
+        };
+        let goes = most.is_none_or(|most| {
+            changes[index] && acceleration >= most * (S::one() - S::constant(ALIKE))
+        });
+        if goes {
+            sliding[index] = Some(sign);
+        }
+    }
+    most.is_some()
 }
 
 /// Marks friction at its capacity that cannot move, because what is held blocks it.
@@ -281,6 +327,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
                 status.held = self.interaction.quantity.value(scene);
             }
             status.mode = mode;
+            status.since = scene.time;
             (status.effort, status.share) = (effort, effort);
         });
         let reading = self.reading(scene);

@@ -209,6 +209,10 @@ where
         return Ok(());
     }
     let columns = Columns::of(setting, list, &holds)?;
+    for (index, tracked) in list.iter().enumerate() {
+        let compliance = columns.delassus[index][index];
+        tracked.update(|status| status.is_brought_back(setting.saddle.time, compliance));
+    }
     let factors = Factors::of(&columns.delassus, &holds);
     let (rates, beyond) = setting.here(|scene| {
         let rates = super::columns::rates(list, scene);

@@ -43,6 +43,8 @@ impl<S: Real> Status<S> {
             &mut self.held,
             &mut self.effort,
             &mut self.share,
+            &mut self.since,
+            &mut self.kept_from,
             &mut self.capacity,
             &mut self.fastest,
             &mut self.largest,

@@ -33,7 +33,7 @@ pub(super) const ROUND_OFF: f64 = 64.0;
 const OF_GAP: f64 = 16.0;
 
 /// By so many units in the last place of the time an instant may be off.
-const OF_TIME: f64 = 8.0;
+pub(super) const OF_TIME: f64 = 8.0;
 
 /// The part of the capacity, or of the efforts at hand, below which an effort is at its bound.
 pub(super) const AT_BOUND: f64 = 1e-12;

@@ -87,6 +87,10 @@ pub(crate) struct Status<S> {
     pub(crate) effort: S,
     /// The effort with which the mode began.
     pub(crate) share: S,
+    /// When (s) it began, or what it holds was last brought back.
+    pub(crate) since: S,
+    /// The rate that it kept from arising until then: what is held is known to its round-off.
+    pub(crate) kept_from: S,
     /// The largest effort while it sticks, by the load when that was last asked for.
     pub(crate) capacity: S,
     /// Friction at its capacity that does not move, for a limit bears the rest.
@@ -222,6 +226,8 @@ impl<S: Real> Status<S> {
             held: S::zero(),
             effort: S::zero(),
             share: S::zero(),
+            since: S::zero(),
+            kept_from: S::zero(),
             capacity: S::zero(),
             rests: false,
             reading: S::zero(),
@@ -250,6 +256,15 @@ impl<S: Real> Status<S> {
         self.is_asked = false;
         self.has_left = reading > two * floor;
         self.band = floor.max(two * reading.abs());
+    }
+
+    /// What is held is brought back at a time: without its effort it would have got a rate.
+    pub(super) fn is_brought_back(&mut self, time: S, compliance: S) {
+        let span = time - self.since;
+        if self.mode.holds() && span > S::zero() {
+            self.kept_from = (compliance * self.effort * span).abs();
+            self.since = time;
+        }
     }
 
     /// Whether a free flight has ended that never left the limit by more than round-off.

@@ -9,14 +9,15 @@ use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors};
 use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::interaction::{Friction, Law, Limits, Rest};
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::sizes::{AT_REST, ROUND_OFF, part};
+use crate::nonsmooth::sizes::{AT_REST, OF_TIME, ROUND_OFF, part};
 use crate::nonsmooth::status::{Impact, InteractionMode, Next, Tracked};
 use crate::state::vector::{Array, StateParts as _};
 
 /// How a quantity moves at an instant.
 pub(super) struct Motion<S> {
     pub(super) rate: S,
-    /// The sum of the sizes of the terms of the rate; the largest one so far.
+    /// The sum of the sizes of the terms of the rate; the largest one so far. What is held has that
+    /// of its effort too: a shaft that never turned has rates of nothing but round-off.
     pub(super) size: S,
 }
 
@@ -30,9 +31,15 @@ impl<S: Real> Motion<S> {
             size = size + (part * velocity).abs();
         });
         tracked.update(|status| status.largest = status.largest.max(size));
+        let status = tracked.status.get();
+        let kept_from = if status.mode.holds() {
+            status.kept_from
+        } else {
+            S::zero()
+        };
         Self {
             rate: quantity.rate(scene),
-            size: tracked.status.get().largest,
+            size: status.largest.max(kept_from),
         }
     }
 
@@ -171,7 +178,8 @@ where
     for (index, tracked) in list.iter().enumerate() {
         let (status, motion) = (tracked.status.get(), &motions[index]);
         let was_at_rest = !is_struck && !is_moved && (status.mode.holds() || status.is_found);
-        let is_slow = motion.rate.abs() <= motion.none();
+        let unresolved = tracked.unresolved(setting.saddle.time, columns.delassus[index][index]);
+        let is_slow = motion.rate.abs() <= motion.none().max(unresolved);
         let rest = is_slow || was_at_rest && status.mode != InteractionMode::Free;
         rests[index] = chosen[index] && rest;
     }
@@ -273,6 +281,16 @@ where
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
+    /// The rate that engaged friction ends within the digits of an instant.
+    fn unresolved(&self, time: S, compliance: S) -> S {
+        let capacity = match self.friction() {
+            Some(friction) if friction.bearing.is_some() => self.status.get().capacity,
+            Some(friction) if friction.capacity.is_finite() => friction.capacity,
+            _ => return S::zero(),
+        };
+        compliance * capacity * S::constant(OF_TIME) * time.ulp()
+    }
+
     /// The restitution of an approach.
     fn restitution(&self, limits: &Limits<S>, approach: S) -> S {
         let fastest = self.status.get().fastest.max(approach);

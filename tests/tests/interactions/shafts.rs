@@ -6,7 +6,7 @@ use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::InteractionMode;
 
-use super::{Arm, tight};
+use super::{Arm, Gearbox, tight};
 
 /// Rates of both joints.
 fn moving(arm: &Arm, rates: [f64; 2]) -> StateOf<Arm> {
@@ -70,4 +70,99 @@ fn locks<C: Coordinates<Arm>>() {
 fn a_dog_takes_the_energy_of_a_projection_in_the_metric_of_the_mass() {
     locks::<Relative>();
     locks::<Absolute>();
+}
+
+/// A torque between friction and stiction on a shaft that never turned. Its rate is nothing but
+/// round-off, whatever meets a stop beside it, a handler does, or a step begins with.
+fn stays<C: Coordinates<Gearbox>>() {
+    let gearbox = Gearbox {
+        torque: -2.6,
+        load: 2.0,
+        ..Gearbox::default()
+    };
+    let h = Gearbox::HANDLES;
+    let interactions = [
+        Interaction::friction(h.input_shaft.angle(), 2.4).stiction(3.7),
+        Interaction::limits(h.output_shaft.angle(), [-1.0, 1.0]).restitution(0.5),
+    ];
+    let mut events = 0;
+    gearbox
+        .simulation(StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .interactions(interactions)
+        .on(
+            "passes",
+            Crossing::Either,
+            |sample| sample.angle(h.output_shaft) + 0.9,
+            |_| events += 1,
+        )
+        .run(0.0..=2.0, every(0.1), |sample| {
+            assert_eq!(sample.mode(0), Ok(InteractionMode::Sticking));
+            assert!(sample.angle(h.input_shaft).abs() < 1e-12);
+        })
+        .expect("it runs");
+    assert!(events > 2, "{events}");
+    let mut stepper = Stepper::<f64, _, _, _>::new(&gearbox, StandardLagrange, Rk4)
+        .expect("it is prepared")
+        .coordinates::<C>()
+        .interactions(interactions);
+    let mut state = stepper.initial_state().expect("a state");
+    for _ in 0..500 {
+        stepper.step(&mut state, 2e-3).expect("it steps");
+        assert_eq!(stepper.mode(0), Ok(InteractionMode::Sticking));
+    }
+    let bodies = stepper.bodies(&state);
+    let angle = stepper.view(&bodies).angle(h.input_shaft);
+    assert!(angle.abs() < 1e-12, "{angle:e}");
+}
+
+#[test]
+fn stiction_holds_what_never_turned() {
+    stays::<Relative>();
+    stays::<Absolute>();
+}
+
+/// With its stiction the brake would leave the clutch more than its capacity, with its friction
+/// less: the brake slides, and the clutch sticks. Both accelerate by 6.8 N m over 0.12 kg m^2.
+fn sticks_once_the_brake_slides<C: Coordinates<Gearbox>>() {
+    let gearbox = Gearbox {
+        torque: -1.0,
+        load: 6.0,
+        ..Gearbox::default()
+    };
+    let h = Gearbox::HANDLES;
+    let interactions = [
+        Interaction::clutch(h.input_shaft.angle(), h.output_shaft.angle(), 1.0, 0.45),
+        Interaction::brake(h.input_shaft.angle(), 0.2).stiction(0.5),
+    ];
+    let wanted = -0.1 * 6.8 / 0.12;
+    let report = gearbox
+        .simulation(StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .interactions(interactions)
+        .run(0.0..=0.1, every(0.1), |_| ())
+        .expect("it runs");
+    let mut stepper = Stepper::<f64, _, _, _>::new(&gearbox, StandardLagrange, Rk4)
+        .expect("it is prepared")
+        .coordinates::<C>()
+        .interactions(interactions);
+    let mut state = stepper.initial_state().expect("a state");
+    for _ in 0..100 {
+        stepper.step(&mut state, 1e-3).expect("it steps");
+    }
+    assert_eq!(stepper.mode(0), Ok(InteractionMode::Sticking));
+    assert_eq!(stepper.mode(1), Ok(InteractionMode::SlidingDown));
+    for bodies in [report.state, stepper.bodies(&state)] {
+        let view = stepper.view(&bodies);
+        for shaft in [h.input_shaft, h.output_shaft] {
+            let rate = view.angle_rate(shaft);
+            assert!((rate - wanted).abs() < 1e-9, "{rate} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn a_clutch_sticks_once_the_brake_beside_it_slides() {
+    sticks_once_the_brake_slides::<Relative>();
+    sticks_once_the_brake_slides::<Absolute>();
 }
