@@ -134,6 +134,7 @@ where
             return Ok(false);
         };
         self.passing.next = self.passing.limit.take();
+        self.passing.ends_with_a_jump();
         let end = until.min(*time + step);
         let rates = M::coordinate_rates(self.dynamics.constants(), state);
         let rates = M::State::from_parts(rates, Array::zeros());

@@ -109,6 +109,10 @@ pub(crate) struct Passing<S> {
     refused: usize,
     /// Whether the last step was not taken.
     refuses: bool,
+    /// Whether the segment under way ends only because its steps are limited.
+    is_cut: bool,
+    /// When (s) a segment last ended so: nothing jumps there.
+    seam: Option<S>,
 }
 
 /// What a step has done to the lengths.
@@ -140,12 +144,28 @@ impl<S: Real> Passing<S> {
             refused_from: S::zero(),
             refused: 0,
             refuses: false,
+            is_cut: false,
+            seam: None,
         }
     }
 
-    /// Whether the segment has ended before a step that must be shorter.
-    pub(crate) fn has_refused(&mut self) -> bool {
-        core::mem::take(&mut self.refuses)
+    /// Whether the segment has ended before a step that must be shorter, at a time (s).
+    pub(crate) fn has_refused(&mut self, time: S) -> bool {
+        let has_refused = core::mem::take(&mut self.refuses);
+        if has_refused || self.is_cut {
+            self.seam = Some(time);
+        }
+        has_refused
+    }
+
+    /// Forces may jump where the segment ends.
+    pub(crate) fn ends_with_a_jump(&mut self) {
+        self.is_cut = false;
+    }
+
+    /// Whether a segment goes on from a time (s) as the one before it ended.
+    pub(crate) fn goes_on(&mut self, from: S) -> bool {
+        self.seam.take() == Some(from)
     }
 
     /// Hands over what it remembers between two steps.
@@ -161,6 +181,7 @@ impl<S: Real> Passing<S> {
         memory.number(&mut self.swing);
         memory.number(&mut self.refused_from);
         memory.count(&mut self.refused);
+        memory.optional(&mut self.seam);
     }
 
     /// Begins a segment.
@@ -170,14 +191,11 @@ impl<S: Real> Passing<S> {
     }
 
     /// Where (s) the segment ends that begins at a time and may end at another.
-    pub(crate) fn end(&self, from: S, until: S) -> S {
+    pub(crate) fn end(&mut self, from: S, until: S) -> S {
         let end = self.limit.map_or(until, |limit| from + limit);
         // What would be left is no step.
-        if end + self.least(end) < until {
-            end
-        } else {
-            until
-        }
+        self.is_cut = end + self.least(end) < until;
+        if self.is_cut { end } else { until }
     }
 
     /// The step (s) across.
