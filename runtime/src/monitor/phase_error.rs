@@ -56,6 +56,8 @@ pub(super) struct PhaseError<S: Scalar, M: Mechanism> {
     energy: S,
     /// The largest change of the rate of a body (rad/s), for methods whose velocities are ahead.
     changed: S,
+    /// How many of their steps passed over an instant at which a force turns round.
+    passed: usize,
 }
 
 impl<S: Scalar, M: Mechanism> Clone for PhaseError<S, M> {
@@ -78,6 +80,7 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
             cubes: [S::zero(); 2],
             energy: S::zero(),
             changed: S::zero(),
+            passed: 0,
         }
     }
 
@@ -109,6 +112,11 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         if self.model.stagger > 0.0 {
             self.changed = self.changed.max(measure.change(step.state));
         }
+    }
+
+    /// Counts a step over an instant at which a force turns round.
+    pub(super) fn passes_over(&mut self) {
+        self.passed += 1;
     }
 
     /// Whether the step after so many is to be judged.
@@ -305,9 +313,11 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
     }
 
     /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what a
-    /// rate changes by over so much time.
+    /// rate changes by over so much time. Where steps pass over instants at which a force turns
+    /// round, each shifts them once more, one way or the other.
     fn led_shift(&self, longest: S) -> S {
-        S::constant(self.model.stagger) * longest * self.changed
+        let often = S::constant((self.passed + 1) as f64).sqrt();
+        S::constant(self.model.stagger) * longest * self.changed * often
     }
 }
 
