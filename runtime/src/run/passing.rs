@@ -55,7 +55,7 @@ const CLOSELY: f64 = 1e-7;
 /// Of a method of order 4 without control of the error.
 const FIXED: Bends = Bends {
     slight: 0.99,
-    beside: 4.0,
+    beside: 1.0,
     covered: [0.03, 0.15],
     turned: 0.03,
 };
@@ -63,7 +63,7 @@ const FIXED: Bends = Bends {
 /// Of one of order 2: what is missed of a turn goes with the square of the part in a step.
 const LOW: Bends = Bends {
     slight: 0.9984,
-    beside: 16.0,
+    beside: 1.0,
     covered: [0.02, 0.1],
     turned: 0.02,
 };
