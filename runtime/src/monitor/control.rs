@@ -91,8 +91,9 @@ impl<S: Real> Control<S> {
         } = self.model;
         let mean = self.estimated.quotient(steps).powf(estimate_power);
         let sum = S::constant(estimate_share) * mean * steps;
-        // What a motion has gained shifts its phase from then on.
-        let grown = S::constant(0.5) * run.travel * run.part_of_vibrations;
+        // Energies are off by twice the part that states are, and shift the phase from then on by
+        // half of theirs.
+        let grown = run.travel * run.part_of_vibrations;
         let is_late = self.passes && above((sum * grown).quotient(run.lives), limits::PHASE);
         let sum = sum.quotient(run.lives);
         (is_late || above(sum, ADDED_UP)).then(|| Warning::ManySteps {

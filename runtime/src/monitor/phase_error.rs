@@ -287,7 +287,8 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         // What is off at the worst is known as it dies out.
         let lives = run.lives * run.fed;
         let shift = shift.quotient(lives.max(S::one()));
-        let shift = shift.max(self.led_shift(run.longest)) * run.part_of_vibrations;
+        let led = self.led_shift(run.longest).max(self.passed_shift(run));
+        let shift = shift.max(led) * run.part_of_vibrations;
         let shift = shift.max(self.shift_of_orbits(run));
         above(shift, limits::PHASE).then(|| Warning::LongSteps {
             shift: shift.to_f64(),
@@ -313,11 +314,21 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
     }
 
     /// Where velocities are ahead of coordinates by a part of a step, coordinates are off by what a
-    /// rate changes by over so much time. Where steps pass over instants at which a force turns
-    /// round, each shifts them once more, one way or the other.
+    /// rate changes by over so much time.
     fn led_shift(&self, longest: S) -> S {
-        let often = S::constant((self.passed + 1) as f64).sqrt();
-        S::constant(self.model.stagger) * longest * self.changed * often
+        S::constant(self.model.stagger) * longest * self.changed
+    }
+
+    /// Where such steps pass over instants at which a force turns round, each changes the speed by
+    /// up to the part that a step is of the time between two, one way or the other. What a motion
+    /// has gained shifts its phase from then on.
+    fn passed_shift(&self, run: &RunFacts<S>) -> S {
+        if self.model.stagger <= 0.0 || self.passed == 0 {
+            return S::zero();
+        }
+        let passed = S::constant(self.passed as f64);
+        let part = (passed * run.longest).quotient(run.duration);
+        passed.sqrt() * part * run.travel
     }
 }
 
