@@ -163,9 +163,14 @@ impl<S: Real, M: Mechanism> Energy<S, M> {
         })
     }
 
-    /// Of a change that is small.
-    pub(super) fn phase(&self, run: &RunFacts<S>) -> Option<Warning> {
-        let change = self.balance.drift().quotient(run.lives);
+    /// Of a change that is small. Where the work of forces is not known so well, it is what single
+    /// steps gained (J).
+    pub(super) fn phase(&self, run: &RunFacts<S>, gained: S) -> Option<Warning> {
+        let mut change = self.balance.drift();
+        if change == S::zero() && gained != S::zero() && !M::REPORT.time.constraints {
+            change = gained.quotient(self.balance.size());
+        }
+        let change = change.quotient(run.lives);
         let shift = S::constant(0.5) * change.abs() * run.travel;
         let shift = (shift * run.part_of_vibrations).max(self.shift_of_orbits(run));
         let shift = shift.quotient(run.lives);

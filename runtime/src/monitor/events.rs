@@ -96,6 +96,15 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         self.states.restart();
     }
 
+    /// Points pass each other closely in a step, along whose line a force acts; whether it turns
+    /// round within the step.
+    pub(crate) fn passes(&mut self, turns_round: bool) {
+        self.control.passes();
+        if turns_round {
+            self.phase_error.passes_over();
+        }
+    }
+
     /// An event has put so much energy (J) into the mechanism.
     pub(crate) fn jump(&mut self, energy: S) {
         self.energy.jump(energy);

@@ -56,6 +56,8 @@ pub(super) struct PhaseError<S: Scalar, M: Mechanism> {
     energy: S,
     /// The largest change of the rate of a body (rad/s), for methods whose velocities are ahead.
     changed: S,
+    /// How many of their steps passed over an instant at which a force turns round.
+    passed: usize,
 }
 
 impl<S: Scalar, M: Mechanism> Clone for PhaseError<S, M> {
@@ -78,6 +80,7 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
             cubes: [S::zero(); 2],
             energy: S::zero(),
             changed: S::zero(),
+            passed: 0,
         }
     }
 
@@ -109,6 +112,11 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         if self.model.stagger > 0.0 {
             self.changed = self.changed.max(measure.change(step.state));
         }
+    }
+
+    /// Counts a step over an instant at which a force turns round.
+    pub(super) fn passes_over(&mut self) {
+        self.passed += 1;
     }
 
     /// Whether the step after so many is to be judged.
@@ -279,7 +287,8 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         // What is off at the worst is known as it dies out.
         let lives = run.lives * run.fed;
         let shift = shift.quotient(lives.max(S::one()));
-        let shift = shift.max(self.led_shift(run.longest)) * run.part_of_vibrations;
+        let led = self.led_shift(run.longest).max(self.passed_shift(run));
+        let shift = shift.max(led) * run.part_of_vibrations;
         let shift = shift.max(self.shift_of_orbits(run));
         above(shift, limits::PHASE).then(|| Warning::LongSteps {
             shift: shift.to_f64(),
@@ -308,6 +317,18 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
     /// rate changes by over so much time.
     fn led_shift(&self, longest: S) -> S {
         S::constant(self.model.stagger) * longest * self.changed
+    }
+
+    /// Where such steps pass over instants at which a force turns round, each changes the speed by
+    /// up to the part that a step is of the time between two, one way or the other. What a motion
+    /// has gained shifts its phase from then on.
+    fn passed_shift(&self, run: &RunFacts<S>) -> S {
+        if self.model.stagger <= 0.0 || self.passed == 0 {
+            return S::zero();
+        }
+        let passed = S::constant(self.passed as f64);
+        let part = (passed * run.longest).quotient(run.duration);
+        passed.sqrt() * part * run.travel
     }
 }
 

@@ -13,9 +13,10 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         let run = &self.facts();
         let slip_of_round_off = self.round_off.speed(run);
         // What is told already is not told again.
+        let gained = self.phase_error.energy();
         let energy = self.energy.verdict(run);
-        let energy = energy.or_else(|| self.energy.of_steps(run, self.phase_error.energy()));
-        let phase = self.energy.phase(run).filter(|_| energy.is_none());
+        let energy = energy.or_else(|| self.energy.of_steps(run, gained));
+        let phase = self.energy.phase(run, gained).filter(|_| energy.is_none());
         let long_run = self.round_off.long_run(run).filter(|_| phase.is_none());
         let singular = self.pivots.verdict(run);
         let vanishing = self.gradients.verdict(run);

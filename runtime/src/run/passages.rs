@@ -9,7 +9,7 @@ use crate::math::vec3::minus;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::passing::{ACROSS, CLOSE, CONTROLLED, FIXED, dot, judged};
+use crate::run::passing::{ACROSS, CLOSE, dot, judged};
 use crate::run::segments::Run;
 use crate::state::vector::{Array, StateParts as _, Vector as _};
 
@@ -48,9 +48,13 @@ where
         let end = integration.time();
         let bodies = self.dynamics.bodies_near(integration.state(), near);
         let ends = [(start, near), (end, &bodies)];
-        let bends = integration.estimate().map_or(&FIXED, |_| &CONTROLLED);
-        let by = (self.passing.longest, bends);
-        let mut judged = judged::<S, M>(self.dynamics.constants(), ends, by);
+        let mut judged = judged::<S, M>(self.dynamics.constants(), ends, &self.passing);
+        if let (true, Some(monitor)) = (judged.passes, &mut self.monitor) {
+            monitor.passes(judged.turns.is_some());
+        }
+        if self.passing.takes_all {
+            return Ok(true);
+        }
         if judged.turns.is_none() && !judged.is_far && self.passing.last.is_some() {
             judged.turns = self.misses([(start, near), (end, &bodies)]);
         }
@@ -107,7 +111,7 @@ where
         let end = time + S::constant(2.0) * step;
         let later = state.plus([(end - time, &rates)]);
         let ends = [(time, state), (end, &later)];
-        let judged = judged::<S, M>(constants, ends, (self.passing.longest, &FIXED));
+        let judged = judged::<S, M>(constants, ends, &self.passing);
         let Some(place) = judged.turns else {
             return false;
         };
@@ -134,6 +138,7 @@ where
             return Ok(false);
         };
         self.passing.next = self.passing.limit.take();
+        self.passing.ends_with_a_jump();
         let end = until.min(*time + step);
         let rates = M::coordinate_rates(self.dynamics.constants(), state);
         let rates = M::State::from_parts(rates, Array::zeros());
@@ -164,7 +169,7 @@ where
             let rates = M::State::from_parts(rates, Array::zeros());
             let (end, later) = (*time + step, state.plus([(step, &rates)]));
             let ends = [(*time, &*state), (end, &later)];
-            let judged = judged::<S, M>(constants, ends, (longest, &FIXED));
+            let judged = judged::<S, M>(constants, ends, &self.passing);
             let size = self.places(state);
             let least = self.passing.least_of(&judged, (*time, end), size);
             *state = state.plus([(least.min(step), &rates)]);

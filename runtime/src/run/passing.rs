@@ -10,23 +10,30 @@
 //! The separations are those of the bodies at both ends of a step. Where nothing turns round, none
 //! of this is compiled.
 
-use crate::integrate::Memory;
+use crate::integrate::{Memory, Method};
 use crate::math::scalar::Real;
 use crate::math::vec3::{minus, plus, times};
 use crate::mechanism::kernels::Mechanism;
 
-/// A step is not taken where the points come closer than this part, squared, of their larger
-/// distance at its ends, and the direction turns by more than [`Bends::slight`].
+/// A length that ends far from where it was led to does so by this part, squared.
 pub(super) const CLOSE: f64 = 0.25;
+
+/// A step that turns a direction is not taken where its points come closer than this part, squared,
+/// of their larger distance at its ends. Those of a line that turns at its length come no closer.
+const CLOSER: f64 = 0.9;
 
 /// Or where it turns by more than the angle of this cosine, squared, and they come closer than this
 /// part, squared. A line of constant length that turns by a radian comes no closer.
 const STRONG: [f64; 2] = [0.25, 0.5];
 
 /// What is allowed in a step besides a straight way.
+#[derive(Debug)]
 pub(super) struct Bends {
     /// The square of the cosine of a turn in a step that is taken however close the points come.
     slight: f64,
+    /// A step that turns more is not taken where the points would pass each other on a straight way
+    /// at so many ways of the step, squared. What passes farther off turns slowly all along.
+    beside: f64,
     /// Part of the distance of the points that is covered, the least and the most: the less, the
     /// wider the passage is against the longest step.
     covered: [f64; 2],
@@ -34,19 +41,52 @@ pub(super) struct Bends {
     turned: f64,
 }
 
-/// Of a method of any order without control of the error.
-pub(super) const FIXED: Bends = Bends {
+/// Where points pass each other so closely that what is missed of the turn is little.
+const CLOSEST: Bends = Bends {
     slight: 0.97,
+    beside: 0.25,
     covered: [0.1, 0.5],
     turned: 0.1,
 };
 
+/// These do so at this part, squared, of the longest way in a step.
+const CLOSELY: f64 = 1e-7;
+
+/// Of a method of order 4 without control of the error.
+const FIXED: Bends = Bends {
+    slight: 0.99,
+    beside: 1.0,
+    covered: [0.03, 0.15],
+    turned: 0.03,
+};
+
+/// Of one of order 2: what is missed of a turn goes with the square of the part in a step.
+const LOW: Bends = Bends {
+    slight: 0.9984,
+    beside: 1.0,
+    covered: [0.02, 0.1],
+    turned: 0.02,
+};
+
 /// Of one that controls it.
-pub(super) const CONTROLLED: Bends = Bends {
+const CONTROLLED: Bends = Bends {
     slight: 0.81,
+    beside: 0.25,
     covered: [1.0, 1.0],
     turned: 0.5,
 };
+
+impl Bends {
+    /// The same where points would pass each other at a distance on a straight way, of which the
+    /// longest step would cover so much; both are squared.
+    fn of_passage<S: Real>(&'static self, [distance, way]: [S; 2]) -> &'static Self {
+        if self.turned < CLOSEST.turned && distance < S::constant(CLOSELY) * way {
+            &CLOSEST
+        } else {
+            self
+        }
+    }
+}
 
 /// A step covers no more than so many distances. What is stiff across them, as forces are by the
 /// reciprocal of the length, differs by that much at the ends of a step of an implicit method.
@@ -71,7 +111,8 @@ const LEAST_DIGITS: f64 = 64.0;
 /// Where points pass each other again and again, a step is this part of the last swing at the most.
 const OF_SWING: f64 = 0.125;
 
-/// The square of the distance, in ways of a step, from which on some steps are not looked at.
+/// The square of the distance, in ways of the longest step, from which on some steps are not looked
+/// at.
 const FAR_SQUARED: f64 = 1024.0;
 
 /// How many: even from rest on, the way of these is shorter.
@@ -89,6 +130,10 @@ const MOMENT: f64 = 1e-3;
 /// What a run remembers of lengths that pass through zero.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Passing<S> {
+    /// What a step may turn by.
+    bends: &'static Bends,
+    /// Whether steps that turn more are taken all the same.
+    pub(super) takes_all: bool,
     /// How long (s) the segment under way may be, and the next one.
     pub(super) limit: Option<S>,
     pub(super) next: Option<S>,
@@ -109,6 +154,10 @@ pub(crate) struct Passing<S> {
     refused: usize,
     /// Whether the last step was not taken.
     refuses: bool,
+    /// Whether the segment under way ends only because its steps are limited.
+    is_cut: bool,
+    /// When (s) a segment last ended so: nothing jumps there.
+    seam: Option<S>,
 }
 
 /// What a step has done to the lengths.
@@ -121,13 +170,25 @@ pub(super) struct Judged<S> {
     from_end: S,
     /// Whether all points are far from each other.
     pub(super) is_far: bool,
+    /// Whether some pass each other within the way of the longest step.
+    pub(super) passes: bool,
     /// The square of the shortest way (m) of those that are not.
     way: S,
 }
 
 impl<S: Real> Passing<S> {
-    pub(crate) fn none() -> Self {
+    /// Nothing yet, of a run with this method.
+    pub(crate) fn by<I: Method<S>>(integrator: &I) -> Self {
+        let model = integrator.error_model();
+        let is_low = model.phase_error > 0.0;
         Self {
+            // In shorter ones velocities would be ahead by less, and the energy another.
+            takes_all: model.stagger > 0.0,
+            bends: match integrator.tolerance() {
+                Some(_) => &CONTROLLED,
+                None if is_low => &LOW,
+                None => &FIXED,
+            },
             limit: None,
             next: None,
             across: None,
@@ -140,12 +201,28 @@ impl<S: Real> Passing<S> {
             refused_from: S::zero(),
             refused: 0,
             refuses: false,
+            is_cut: false,
+            seam: None,
         }
     }
 
-    /// Whether the segment has ended before a step that must be shorter.
-    pub(crate) fn has_refused(&mut self) -> bool {
-        core::mem::take(&mut self.refuses)
+    /// Whether the segment has ended before a step that must be shorter, at a time (s).
+    pub(crate) fn has_refused(&mut self, time: S) -> bool {
+        let has_refused = core::mem::take(&mut self.refuses);
+        if has_refused || self.is_cut {
+            self.seam = Some(time);
+        }
+        has_refused
+    }
+
+    /// Forces may jump where the segment ends.
+    pub(crate) fn ends_with_a_jump(&mut self) {
+        self.is_cut = false;
+    }
+
+    /// Whether a segment goes on from a time (s) as the one before it ended.
+    pub(crate) fn goes_on(&mut self, from: S) -> bool {
+        self.seam.take() == Some(from)
     }
 
     /// Hands over what it remembers between two steps.
@@ -161,6 +238,7 @@ impl<S: Real> Passing<S> {
         memory.number(&mut self.swing);
         memory.number(&mut self.refused_from);
         memory.count(&mut self.refused);
+        memory.optional(&mut self.seam);
     }
 
     /// Begins a segment.
@@ -170,14 +248,11 @@ impl<S: Real> Passing<S> {
     }
 
     /// Where (s) the segment ends that begins at a time and may end at another.
-    pub(crate) fn end(&self, from: S, until: S) -> S {
+    pub(crate) fn end(&mut self, from: S, until: S) -> S {
         let end = self.limit.map_or(until, |limit| from + limit);
         // What would be left is no step.
-        if end + self.least(end) < until {
-            end
-        } else {
-            until
-        }
+        self.is_cut = end + self.least(end) < until;
+        if self.is_cut { end } else { until }
     }
 
     /// The step (s) across.
@@ -297,8 +372,15 @@ pub(super) fn dot<S: Real>(a: &[S; 3], b: &[S; 3]) -> S {
     a1 * b1 + a2 * b2 + a3 * b3
 }
 
+/// The square of the distance at which points pass each other on a straight way.
+fn beside<S: Real>(from: &[S; 3], way: &[S; 3]) -> S {
+    let towards = dot(from, way);
+    let squared = dot(way, way).max(S::smallest());
+    (dot(from, from) - (towards * towards).quotient(squared)).max(S::zero())
+}
+
 /// Whether a direction turns in a step with its points close to each other.
-fn turns<S: Real>([before, after]: [&[S; 3]; 2], way: &[S; 3], slight: f64) -> bool {
+fn turns<S: Real>([before, after]: [&[S; 3]; 2], way: &[S; 3], bends: &Bends) -> bool {
     let (at_start, at_end) = (dot(before, before), dot(after, after));
     let squared = dot(way, way);
     // From zero on it has no direction to turn from.
@@ -310,39 +392,49 @@ fn turns<S: Real>([before, after]: [&[S; 3]; 2], way: &[S; 3], slight: f64) -> b
     let closest = plus(before, &times(way, nearest));
     let closest = dot(&closest, &closest);
     let cosine = dot(before, after);
-    [[slight, CLOSE], STRONG].iter().any(|&[turned, close]| {
-        let turned = S::constant(turned) * at_start * at_end;
-        (cosine <= S::zero() || cosine * cosine < turned)
-            && closest < S::constant(close) * at_start.max(at_end)
-    })
+    let turns = |slight: f64| {
+        cosine <= S::zero() || cosine * cosine < S::constant(slight) * at_start * at_end
+    };
+    let comes = |close: f64| closest < S::constant(close) * at_start.max(at_end);
+    let [strong, close] = STRONG;
+    let passes = beside(before, way) < S::constant(bends.beside) * squared;
+    turns(bends.slight) && passes && comes(CLOSER) || turns(strong) && comes(close)
 }
 
 /// Looks at the separations at the start and at the end of a step.
 pub(super) fn judged<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     ends: [(S, &M::State<S>); 2],
-    (longest, bends): (S, &Bends),
+    passing: &Passing<S>,
 ) -> Judged<S> {
+    let Passing { longest, bends, .. } = *passing;
     let never = S::constant(f64::from(f32::MAX));
     let mut judged = Judged {
         turns: None,
         from_start: never,
         from_end: never,
         is_far: true,
+        passes: false,
         way: never,
     };
     let [(start, _), (end, _)] = ends;
     let longest = longest.max(end - start).quotient(end - start);
-    let by = (longest, bends);
     M::separations(constants, ends, &mut |place, [before, after]| {
         let way = minus(&after, &before);
-        if dot(&before, &before) > S::constant(FAR_SQUARED) * dot(&way, &way) {
+        let longest_way = times(&way, longest);
+        let longest_way = dot(&longest_way, &longest_way);
+        if dot(&before, &before) > S::constant(FAR_SQUARED) * longest_way {
             return;
         }
+        let passes_at = beside(&before, &way);
+        let bends = bends.of_passage([passes_at, longest_way]);
+        let by = (longest, bends);
         judged.is_far = false;
         judged.way = judged.way.min(dot(&way, &way));
         judged.from_end = judged.from_end.min(allowed(&after, &way, by));
-        if turns([&before, &after], &way, bends.slight) {
+        let is_nearest_within = dot(&before, &way) <= S::zero() && dot(&after, &way) >= S::zero();
+        judged.passes |= is_nearest_within && passes_at < longest_way;
+        if turns([&before, &after], &way, bends) {
             judged.turns = Some(place);
             judged.from_start = judged.from_start.min(allowed(&before, &way, by));
         }

@@ -133,7 +133,7 @@ where
         mut companion: Option<Companion<S, M, F, A, C, I>>,
         (start, end): (S, S),
         last_good: &mut (S, M::State<S>),
-        past: Option<&Past<'_, S, M>>,
+        mut past: Option<&Past<'_, S, M>>,
     ) -> Result<RunReport<S, M>, Fault> {
         let mut from = start;
         self.leave_zeros(last_good, end - start);
@@ -150,7 +150,6 @@ where
         } else {
             self.begin(integrator, &mut companion, (start, end), last_good)?;
         }
-        let mut past = past;
         while from < end && self.log.flow.is_continue() {
             let mut until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
             if let Some(hybrid) = &mut self.hybrid {
@@ -159,7 +158,8 @@ where
             until = self
                 .next_switch(from, until)
                 .map_err(|fault| self.explained(integrator, fault, *last_good))?;
-            if past.is_none_or(|past| past.segment.is_none()) {
+            let is_between = past.is_none_or(|past| past.segment.is_none());
+            if is_between {
                 self.passing.begin();
             }
             until = self.passing.end(from, until);
@@ -174,7 +174,6 @@ where
             if let Some(companion) = &mut companion {
                 companion.restart(&span, self.stabilisation);
             }
-            let is_between = past.is_none_or(|past| past.segment.is_none());
             let reached = if is_between && self.goes_across(last_good, until)? {
                 if self.schedule.at(last_good.0, self.log.unseen) {
                     self.show(last_good.0, &last_good.1, &mut companion);
@@ -184,7 +183,7 @@ where
                 self.segment(integrator, &mut companion, span, last_good, past.take())
             };
             self.convert(last_good);
-            if reached.is_ok() && self.passing.has_refused() {
+            if reached.is_ok() && self.passing.has_refused(last_good.0) {
                 from = last_good.0;
                 continue;
             }
@@ -279,7 +278,8 @@ where
         let mut integration = integrator.start(&mut self.dynamics, span, begun.state)?;
         if let Some((past, segment)) = under_way {
             self.go_on(&mut integration, segment.memory, past)?;
-        } else if let Some(monitor) = &mut self.monitor {
+        } else if let (Some(monitor), false) = (&mut self.monitor, self.passing.goes_on(span.start))
+        {
             monitor.restart();
             let state = integration.state();
             self.dynamics
@@ -354,8 +354,7 @@ where
                 }
             }
         }
-        let counts = integration.counts().without(begun.of_monitor);
-        self.counts = self.counts.plus(counts);
+        self.counts = (self.counts).plus(integration.counts().without(begun.of_monitor));
         Ok(())
     }
 
@@ -459,6 +458,7 @@ where
         (time, mut bodies): (S, M::State<S>),
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
+        self.passing.ends_with_a_jump();
         if let Some(stabilisation) = self.stabilisation {
             bodies = self.stabilised(stabilisation, time, bodies)?;
         }

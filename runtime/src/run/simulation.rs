@@ -502,7 +502,7 @@ where
             monitor,
             log: Log::new(observe),
             hybrid,
-            passing: Passing::none(),
+            passing: Passing::by(integrator),
             steps: 0,
             counts: Counts::default(),
             deferred: Deferred::new(),

@@ -5,7 +5,10 @@ use core::f64::consts::FRAC_PI_2;
 
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::{Adams, AdamsBashforthMoulton4, GeneralizedAlpha, Heun, Midpoint, RadauIIA, Runs};
+use holonom::{
+    Adams, AdamsBashforthMoulton4, Bdf, GeneralizedAlpha, Heun, Midpoint, RadauIIA, Runs,
+    SemiImplicitEuler,
+};
 
 use super::oscillators::arcs;
 use super::run;
@@ -98,6 +101,49 @@ fn a_point_beside_the_way_is_passed_as_well_as_one_on_it() {
         for (index, error) in found.iter().enumerate() {
             assert!(error.abs() < allowed, "{beside:e}, {index}: {error:e}");
         }
+    }
+}
+
+/// How far off a bead is after many passages, over what it swings by, and whether that was told.
+fn after_many<I, C>(mechanism: &Drawn, integrator: I, (end, right): (f64, f64)) -> (f64, bool)
+where
+    C: Coordinates<Drawn>,
+    I: Runs<f64, Drawn, StandardLagrange, C>,
+{
+    let report = Simulation::new(mechanism, StandardLagrange, integrator)
+        .coordinates::<C>()
+        .run(0.0..=end, every(end), |_| ())
+        .unwrap_or_else(|error| panic!("{error}"));
+    let place = Drawn::pose(&report.state, Drawn::HANDLES.bead).position.x;
+    ((place - right).abs(), !report.warnings().is_empty())
+}
+
+#[test]
+fn many_passages_are_right_or_told() {
+    for beside in [1e-6, 5e-3] {
+        let mechanism = drawn(1.0, 0.0, beside);
+        // In the middle once more, after twenty passages.
+        let end = (41.0 * quarter(beside), 0.0);
+        let found = [
+            after_many::<_, Relative>(&mechanism, Rk4::every(1e-2), end),
+            after_many::<_, Relative>(&mechanism, Midpoint::every(1e-2), end),
+            after_many::<_, Relative>(&mechanism, Heun::every(1e-2), end),
+            after_many::<_, Absolute>(&mechanism, GeneralizedAlpha::every(1e-2), end),
+            after_many::<_, Relative>(&mechanism, DormandPrince::default(), end),
+            after_many::<_, Relative>(&mechanism, Adams::default(), end),
+            after_many::<_, Relative>(&mechanism, Bdf::default(), end),
+            after_many::<_, Relative>(&mechanism, SemiImplicitEuler::every(1e-3), end),
+        ];
+        for (index, (error, is_told)) in found.iter().enumerate() {
+            // Warnings find what is off by a hundredth or two.
+            assert!(*error < 2e-2 || *is_told, "{beside:e}, {index}: {error:e}");
+        }
+        // What is of order 2 is not left to warnings.
+        let [_, midpoint, heun, ..] = found;
+        assert!(
+            beside > 1e-2 || midpoint.0 < 5e-3 && heun.0 < 5e-3,
+            "{beside:e}: {found:?}"
+        );
     }
 }
 
