@@ -26,13 +26,15 @@ mod monitored;
 mod on_constraints;
 pub(crate) mod origin;
 mod secants;
+mod straight_on;
 mod system;
 mod trial;
 
 use core::fmt;
 use core::marker::PhantomData;
 
-pub(crate) use evaluate::Evaluator;
+use evaluate::VANISHED;
+pub(crate) use evaluate::{Evaluator, vanishes};
 pub(crate) use faults::singular;
 
 use crate::assembly::consistent_start::check_start;
@@ -47,7 +49,7 @@ use crate::mechanism::coordinates::{
     Absolute, AbsoluteEquations, Coordinates, Equations, EquationsIn, Evaluation, Relative,
 };
 use crate::mechanism::joint_kernels::JointCoordinates;
-use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
+use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation};
 use crate::mechanism::orientations::{check_state, with_unit_orientations};
 use crate::mechanism::switch::Switch;
 use crate::mechanism::turns;
@@ -99,6 +101,10 @@ pub struct Dynamics<
     forces: A,
     pub(crate) iterations: Iterations,
     pub(crate) seen: Seen<S>,
+    /// The relative pivot from which on it is asked whether a singular configuration is passed.
+    near: S,
+    /// The pivot without the compliance at the end of the last step, where it was found.
+    rigid: Option<S>,
     coordinates: PhantomData<C>,
 }
 
@@ -168,6 +174,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F, NoForces, M::Co
             forces: NoForces,
             iterations: Iterations::default(),
             seen: Seen::nothing(),
+            near: S::constant(VANISHED) * S::EPSILON,
+            rigid: None,
             coordinates: PhantomData,
         })
     }
@@ -186,6 +194,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A: Clone, C: Coordinates<M>> Clon
             forces: self.forces.clone(),
             iterations: self.iterations,
             seen: self.seen,
+            near: self.near,
+            rigid: self.rigid,
             coordinates: PhantomData,
         }
     }
@@ -230,6 +240,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
             forces: exchange(self.forces),
             iterations: self.iterations,
             seen: self.seen,
+            near: self.near,
+            rigid: self.rigid,
             coordinates: PhantomData,
         }
     }
@@ -251,6 +263,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
             forces: self.forces,
             iterations: self.iterations,
             seen: self.seen,
+            near: self.near,
+            rigid: self.rigid,
             coordinates: PhantomData,
         }
     }
@@ -585,9 +599,4 @@ where
     pub(crate) fn all_forces(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
         self.of_bodies().all_forces(time, bodies)
     }
-}
-
-#[inline(always)]
-pub(crate) fn vanishes<S: Real, T: Terms>(relative_pivot: S) -> bool {
-    !T::COMPLIANT && relative_pivot < S::constant(64.0) * S::EPSILON
 }

@@ -265,6 +265,40 @@ impl<S: Real> AugmentedLagrangian<S> {
         })
     }
 
+    /// A solution on the way through a singular configuration: as often as it takes, at most
+    /// `max_iterations` times.
+    ///
+    /// # Errors
+    /// [`Fault::NotConverged`] where what still changes is no state of self-stress that the motion
+    /// leaves.
+    pub(super) fn straight_on<M: Mechanism, C: Coordinates<M>>(
+        &self,
+        saddle: &Saddle<'_, S, M, C, Compliant>,
+        next: &mut Solution<S, M, C>,
+    ) -> Result<(), Fault> {
+        let mut last = *next;
+        let mut change = S::zero();
+        for iterations in 2..=self.max_iterations {
+            last = *next;
+            saddle.solve_again(next);
+            next.iterations = iterations;
+            change = norm_of_difference(&next.accelerations, &last.accelerations);
+            if self.small(change, next) {
+                return Ok(());
+            }
+        }
+        let multipliers = difference_of(&next.multipliers, &last.multipliers);
+        let is_passing = match saddle.by_all_rows(&next.accelerations, &multipliers) {
+            Some(rows) => matches!(acceptance(saddle.time, &rows).1, Acceptance::Passing),
+            None => self.loads_no_motion(saddle, next, &multipliers),
+        };
+        if is_passing {
+            Ok(())
+        } else {
+            Err(self.not_converged(self.max_iterations, change, None))
+        }
+    }
+
     #[cold]
     fn not_converged(&self, iterations: usize, change: S, joint: Option<&'static str>) -> Fault {
         Fault::NotConverged {

@@ -11,7 +11,8 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::monitor::{Monitor, fastest};
+use crate::monitor::Monitor;
+use crate::run::branching::Branching;
 use crate::run::companion::Companion;
 use crate::run::deferred::Deferred;
 use crate::run::events::list::Hybrid;
@@ -47,6 +48,8 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
     pub(crate) deferred: Deferred<C::State<S>>,
     /// How fast (rad/s) a state moved that no correction could bring back.
     pub(crate) gone: Option<S>,
+    /// Where joints are closed without a stabilisation.
+    pub(crate) branching: Branching<S>,
 }
 
 /// A step that was taken, and looked into for the monitor.
@@ -301,7 +304,7 @@ where
                 integration.counts().evaluations == taken.evaluations
             } else {
                 // Or as the slope at the start of the next step.
-                taken.looks <= 1 && self.stabilisation.is_none() && !A::INTERACTS
+                taken.looks <= 1 && !self.corrects() && !A::INTERACTS
             };
             if !is_shared {
                 begun.of_monitor = begun.of_monitor.saturating_add(taken.looks);
@@ -361,6 +364,10 @@ where
         }
         if !self.is_taken(integration, (start, near))? {
             return Ok(None);
+        }
+        if self.stabilisation.is_none() {
+            let (time, state) = (integration.time(), integration.state());
+            self.branching.step(&mut self.dynamics, time, state);
         }
         let event = self.event_within(integration, (start, near))?;
         let before = integration.counts().evaluations;
@@ -433,7 +440,8 @@ where
     ) -> Result<(), Fault> {
         let time = integration.time();
         let since = last_good.0 - self.deferred.elapsed();
-        if self.may_defer() && self.deferred.defer(integration.state(), time - last_good.0) {
+        let may_defer = self.may_defer() && !self.branching.is_near();
+        if may_defer && self.deferred.defer(integration.state(), time - last_good.0) {
             last_good.0 = time;
             self.steps = self.steps.saturating_add(1);
             self.log.unseen += 1;
@@ -441,8 +449,8 @@ where
         }
         let near = (since, &last_good.1);
         let mut state = bodies_within(&mut self.dynamics, integration, near, time)?;
-        if let Some(stabilisation) = self.stabilisation {
-            state = self.stabilised(stabilisation, time, state)?;
+        if self.corrects() {
+            state = self.corrected(time, state)?;
             let state = self.dynamics.nearest_to(&state, integration.state());
             integration.replace(state);
         }
@@ -484,8 +492,8 @@ where
         (time, mut bodies): (S, M::State<S>),
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
-        if let Some(stabilisation) = self.stabilisation {
-            bodies = self.stabilised(stabilisation, time, bodies)?;
+        if self.corrects() {
+            bodies = self.corrected(time, bodies)?;
         }
         if self.monitor.is_some() {
             self.dynamics.see_pivot(time, &bodies);
@@ -523,32 +531,6 @@ where
         *last_good = (time, state);
         self.log.unseen += 1;
         Ok(())
-    }
-
-    /// A state after its stabilisation.
-    #[inline(never)]
-    pub(crate) fn stabilised(
-        &mut self,
-        stabilisation: &dyn PostStabilisation<S, M>,
-        time: S,
-        reached: M::State<S>,
-    ) -> Result<M::State<S>, Fault> {
-        let constants = self.dynamics.constants();
-        let mut state = reached;
-        let residual = match stabilisation.stabilise(constants, time, &mut state) {
-            Ok(residual) => residual,
-            Err(fault) => {
-                // A correction that fails may leave any velocities.
-                self.gone = Some(fastest::<S, M>(constants, &reached));
-                return Err(fault);
-            }
-        };
-        if let Some(monitor) = &mut self.monitor
-            && residual > S::zero()
-        {
-            monitor.accept_unconverged_correction(time);
-        }
-        Ok(state)
     }
 
     pub(crate) fn show<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
