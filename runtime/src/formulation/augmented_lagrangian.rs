@@ -181,6 +181,32 @@ impl<S: Real> AugmentedLagrangian<S> {
         Ok(())
     }
 
+    /// Solves until the accelerations change no more, or as often as it may: then by how much the
+    /// last solution changed them.
+    #[inline(always)]
+    fn iterate<M: Mechanism, C: Coordinates<M>>(
+        &self,
+        saddle: &Saddle<'_, S, M, C, Compliant>,
+        last: &mut Solution<S, M, C>,
+        next: &mut Solution<S, M, C>,
+    ) -> Result<Option<S>, Fault> {
+        let mut change = S::zero();
+        for iterations in 2..=self.max_iterations {
+            *last = *next;
+            saddle.solve_again(next);
+            next.iterations = iterations;
+            change = norm_of_difference(&next.accelerations, &last.accelerations);
+            if self.small(change, next) {
+                return Ok(None);
+            }
+            if !change.is_finite() {
+                let origin = NotFinite::Unknown;
+                return Err(Fault::RatesNotFinite { origin });
+            }
+        }
+        Ok(Some(change))
+    }
+
     /// As many solutions as it takes.
     #[inline(never)]
     fn until_small<M: Mechanism, C: Coordinates<M>>(
@@ -189,20 +215,9 @@ impl<S: Real> AugmentedLagrangian<S> {
         next: &mut Solution<S, M, C>,
     ) -> Result<(), Fault> {
         let mut last = *next;
-        let mut change = S::zero();
-        for iterations in 2..=self.max_iterations {
-            last = *next;
-            saddle.solve_again(next);
-            next.iterations = iterations;
-            change = norm_of_difference(&next.accelerations, &last.accelerations);
-            if self.small(change, next) {
-                return Ok(());
-            }
-            if !change.is_finite() {
-                let origin = NotFinite::Unknown;
-                return Err(Fault::RatesNotFinite { origin });
-            }
-        }
+        let Some(change) = self.iterate(saddle, &mut last, next)? else {
+            return Ok(());
+        };
         // With the rows of all joints a state of self-stress can be told from masses that are too
         // large; of the rows that remain in joint coordinates, by what they load free bodies.
         let multipliers = difference_of(&next.multipliers, &last.multipliers);
@@ -277,16 +292,9 @@ impl<S: Real> AugmentedLagrangian<S> {
         next: &mut Solution<S, M, C>,
     ) -> Result<(), Fault> {
         let mut last = *next;
-        let mut change = S::zero();
-        for iterations in 2..=self.max_iterations {
-            last = *next;
-            saddle.solve_again(next);
-            next.iterations = iterations;
-            change = norm_of_difference(&next.accelerations, &last.accelerations);
-            if self.small(change, next) {
-                return Ok(());
-            }
-        }
+        let Some(change) = self.iterate(saddle, &mut last, next)? else {
+            return Ok(());
+        };
         let multipliers = difference_of(&next.multipliers, &last.multipliers);
         let is_passing = match saddle.by_all_rows(&next.accelerations, &multipliers) {
             Some(rows) => matches!(acceptance(saddle.time, &rows).1, Acceptance::Passing),
