@@ -102,7 +102,7 @@ pub struct Dynamics<
     pub(crate) iterations: Iterations,
     pub(crate) seen: Seen<S>,
     /// The relative pivot from which on it is asked whether a singular configuration is passed.
-    near: S,
+    pub(crate) near: S,
     /// The pivot without the compliance at the end of the last step, where it was found.
     rigid: Option<S>,
     coordinates: PhantomData<C>,

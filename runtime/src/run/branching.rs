@@ -5,15 +5,12 @@
 
 use crate::constraints::projection::Projection;
 use crate::dynamics::Dynamics;
-use crate::error::Fault;
 use crate::formulation::Formulation;
+use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::monitor::fastest;
-use crate::run::post_step::PostStabilisation;
-use crate::run::segments::Run;
 
 /// A relative pivot, as the square of a distance, that is far from zero.
 const FAR: f64 = 0.05;
@@ -48,6 +45,15 @@ impl<S: Real> Branching<S> {
             is_due: false,
             asked: S::constant(FAR),
         }
+    }
+
+    /// Hands over what it remembers between two steps, and `near` of the dynamics.
+    pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>, near: &mut S) {
+        memory.number(near);
+        memory.optional(&mut self.last);
+        memory.flag(&mut self.is_near);
+        memory.flag(&mut self.is_due);
+        memory.number(&mut self.asked);
     }
 
     /// Whether the last step ended near to one.
@@ -111,61 +117,5 @@ impl<S: Real> Branching<S> {
             Ok(_) => closed,
             Err(_) => *state,
         }
-    }
-}
-
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
-    /// Whether the end of the last step is corrected.
-    #[inline]
-    pub(crate) fn corrects(&self) -> bool {
-        self.stabilisation.is_some() || self.branching.is_near()
-    }
-
-    /// A state after its stabilisation, or with its joints closed.
-    pub(crate) fn corrected(
-        &mut self,
-        time: S,
-        reached: M::State<S>,
-    ) -> Result<M::State<S>, Fault> {
-        match self.stabilisation {
-            Some(stabilisation) => self.stabilised(stabilisation, time, reached),
-            None => {
-                let constants = self.dynamics.constants();
-                Ok(Branching::closed::<M>(constants, time, &reached))
-            }
-        }
-    }
-
-    /// A state after its stabilisation.
-    #[inline(never)]
-    pub(crate) fn stabilised(
-        &mut self,
-        stabilisation: &dyn PostStabilisation<S, M>,
-        time: S,
-        reached: M::State<S>,
-    ) -> Result<M::State<S>, Fault> {
-        let constants = self.dynamics.constants();
-        let mut state = reached;
-        let residual = match stabilisation.stabilise(constants, time, &mut state) {
-            Ok(residual) => residual,
-            Err(fault) => {
-                // A correction that fails may leave any velocities.
-                self.gone = Some(fastest::<S, M>(constants, &reached));
-                return Err(fault);
-            }
-        };
-        if let Some(monitor) = &mut self.monitor
-            && residual > S::zero()
-        {
-            monitor.accept_unconverged_correction(time);
-        }
-        Ok(state)
     }
 }

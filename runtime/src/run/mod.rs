@@ -33,6 +33,7 @@ pub(crate) mod checkpoint;
 #[cfg(feature = "recorder")]
 mod columns;
 pub(crate) mod companion;
+mod corrected;
 mod deferred;
 pub(crate) mod dense_step;
 pub(crate) mod direct;
