@@ -43,8 +43,9 @@ use crate::state::vector::Array;
 ///
 /// A mechanism that passes a singular configuration with a violation `Phi` moves as one of other
 /// lengths would, which need not be the way of the perfect one: it may leave that where `Phi`, in
-/// lengths of the mechanism, is not small against this compliance times the masses. With a
-/// [`Projection`](crate::Projection) after every step it stays on its way.
+/// lengths of the mechanism, is not small against this compliance times the masses. A run closes
+/// its joints there after every step, as a [`Projection`](crate::Projection) does it. So it stays
+/// on its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AugmentedLagrangian<S> {
     /// `alpha`, positive: kg for a constraint in metres, kg m^2 for one in radians; for others see

@@ -172,6 +172,7 @@ where
     }
 
     /// Corrects the state onto the constraints after every step, and every state that is reported.
+    /// Without it a run does so on its way through a singular configuration alone.
     #[must_use]
     pub fn projection(mut self, projection: Projection<S>) -> Self {
         self.projection = Some(projection);
