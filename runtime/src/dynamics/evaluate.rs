@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::{Dynamics, vanishes};
+use super::Dynamics;
 use crate::error::Fault;
 use crate::formulation::{Formulation, Saddle, Solution};
 use crate::math::scalar::Real;
@@ -363,6 +363,14 @@ fn explained_later(fault: Fault) -> Fault {
         Fault::RatesNotFinite { .. } => Fault::StateNotFinite,
         fault => fault,
     }
+}
+
+/// The relative pivot, in `EPSILON`, below which no digit of a multiplier is left.
+pub(super) const VANISHED: f64 = 64.0;
+
+#[inline(always)]
+pub(crate) fn vanishes<S: Real, T: Terms>(relative_pivot: S) -> bool {
+    !T::COMPLIANT && relative_pivot < S::constant(VANISHED) * S::EPSILON
 }
 
 /// Whether the rates are finite and no pivot vanishes: below `64 EPSILON`, relative, no digit of

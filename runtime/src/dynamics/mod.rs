@@ -27,13 +27,15 @@ mod near;
 mod on_constraints;
 pub(crate) mod origin;
 mod secants;
+mod straight_on;
 mod system;
 mod trial;
 
 use core::fmt;
 use core::marker::PhantomData;
 
-pub(crate) use evaluate::Evaluator;
+use evaluate::VANISHED;
+pub(crate) use evaluate::{Evaluator, vanishes};
 pub(crate) use faults::singular;
 
 use crate::assembly::consistent_start::check_start;
@@ -48,7 +50,7 @@ use crate::mechanism::coordinates::{
     Absolute, AbsoluteEquations, Coordinates, Equations, EquationsIn, Evaluation, Relative,
 };
 use crate::mechanism::joint_kernels::JointCoordinates;
-use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, Terms};
+use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation};
 use crate::mechanism::orientations::{check_state, with_unit_orientations};
 use crate::mechanism::switch::Switch;
 use crate::mechanism::turns;
@@ -102,6 +104,10 @@ pub struct Dynamics<
     pub(crate) seen: Seen<S>,
     /// Whether turns were counted through the last step.
     has_counted: bool,
+    /// The relative pivot from which on it is asked whether a singular configuration is passed.
+    pub(crate) near: S,
+    /// The pivot without the compliance at the end of the last step, where it was found.
+    rigid: Option<S>,
     coordinates: PhantomData<C>,
 }
 
@@ -172,6 +178,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F, NoForces, M::Co
             iterations: Iterations::default(),
             seen: Seen::nothing(),
             has_counted: false,
+            near: S::constant(VANISHED) * S::EPSILON,
+            rigid: None,
             coordinates: PhantomData,
         })
     }
@@ -191,6 +199,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A: Clone, C: Coordinates<M>> Clon
             iterations: self.iterations,
             seen: self.seen,
             has_counted: false,
+            near: self.near,
+            rigid: self.rigid,
             coordinates: PhantomData,
         }
     }
@@ -236,6 +246,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
             iterations: self.iterations,
             seen: self.seen,
             has_counted: false,
+            near: self.near,
+            rigid: self.rigid,
             coordinates: PhantomData,
         }
     }
@@ -258,6 +270,8 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
             iterations: self.iterations,
             seen: self.seen,
             has_counted: false,
+            near: self.near,
+            rigid: self.rigid,
             coordinates: PhantomData,
         }
     }
@@ -561,9 +575,4 @@ where
     pub(crate) fn all_forces(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
         self.of_bodies().all_forces(time, bodies)
     }
-}
-
-#[inline(always)]
-pub(crate) fn vanishes<S: Real, T: Terms>(relative_pivot: S) -> bool {
-    !T::COMPLIANT && relative_pivot < S::constant(64.0) * S::EPSILON
 }

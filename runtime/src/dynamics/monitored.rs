@@ -44,7 +44,7 @@ where
     }
 
     #[inline(always)]
-    fn squared(pivot: S) -> S {
+    pub(super) fn squared(pivot: S) -> S {
         if C::HAS_LINEAR_PIVOTS {
             pivot * pivot
         } else {
@@ -241,7 +241,8 @@ where
         }
         if F::Terms::COMPLIANT {
             let pivot = || self.rigid_pivot(time, bodies).relative;
-            step.is_multiple_of(PIVOT_EVERY).then(pivot)
+            let asked = || step.is_multiple_of(PIVOT_EVERY).then(pivot);
+            self.rigid.or_else(asked)
         } else {
             Some(self.seen.pivot)
         }
@@ -272,7 +273,7 @@ where
 
     /// The smallest relative pivot where bodies stand so, as the square of a distance, without a
     /// compliance.
-    fn pivot_of(&self, time: S, bodies: &M::State<S>) -> Pivot<S> {
+    pub(super) fn pivot_of(&self, time: S, bodies: &M::State<S>) -> Pivot<S> {
         if F::Terms::COMPLIANT {
             return self.rigid_pivot(time, bodies);
         }

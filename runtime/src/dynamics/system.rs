@@ -1,5 +1,6 @@
 //! The equations of motion as a system of ordinary differential equations.
 
+use super::evaluate::Parts;
 use super::{Dynamics, Evaluator, vanishes};
 use crate::error::Fault;
 use crate::formulation::Formulation;
@@ -44,16 +45,27 @@ where
         if Evaluator::<S, M, F, A, C>::IN_PARTS {
             let parts = self
                 .evaluator()
-                .in_parts(time, state, rates, &mut multipliers)?;
+                .in_parts(time, state, rates, &mut multipliers);
+            let is_far = |parts: &Parts<S>| !self.is_near(parts.pivot.relative);
+            if Self::GOES_ON && !parts.as_ref().is_ok_and(is_far) {
+                return self.stage_nearby(parts, (time, state), rates);
+            }
+            let parts = parts?;
             self.count(&parts);
             self.look(parts.pivot.relative);
             return Ok(());
         }
         let pivot = self.evaluator().slope(time, state, rates, &mut multipliers);
-        if vanishes::<S, F::Terms>(pivot.relative) {
-            // Why is not asked here: a reference to the state would keep it in memory at every
-            // stage.
-            return Err(Fault::StateNotFinite);
+        if self.is_near(pivot.relative) {
+            // Of a copy: a reference to the state would keep it in memory at every stage.
+            if Self::GOES_ON
+                && let Some(straight_on) = self.straight_on(time, *state, pivot.relative)
+            {
+                *rates = straight_on;
+            } else if vanishes::<S, F::Terms>(pivot.relative) {
+                // Why is not asked here, for the same reason.
+                return Err(Fault::StateNotFinite);
+            }
         }
         self.look(pivot.relative);
         Ok(())
@@ -76,8 +88,10 @@ where
         rates: &C::State<S>,
         columns: &mut <C::State<S> as Vector<S>>::Each<C::State<S>>,
     ) -> Result<usize, Fault> {
+        // Near to a singular configuration rates are those of another formulation.
         if !F::ITERATED
             && !A::INTERACTS
+            && !self.was_near()
             && let Some(evaluations) = self.differentiated(time, state, columns)
         {
             return Ok(evaluations);

@@ -43,8 +43,9 @@ use crate::state::vector::Array;
 ///
 /// A mechanism that passes a singular configuration with a violation `Phi` moves as one of other
 /// lengths would, which need not be the way of the perfect one: it may leave that where `Phi`, in
-/// lengths of the mechanism, is not small against this compliance times the masses. With a
-/// [`Projection`](crate::Projection) after every step it stays on its way.
+/// lengths of the mechanism, is not small against this compliance times the masses. A run closes
+/// its joints there after every step, as a [`Projection`](crate::Projection) does it. So it stays
+/// on its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AugmentedLagrangian<S> {
     /// `alpha`, positive: kg for a constraint in metres, kg m^2 for one in radians; for others see
@@ -195,6 +196,32 @@ impl<S: Real> AugmentedLagrangian<S> {
         Ok(())
     }
 
+    /// Solves until the accelerations change no more, or as often as it may: then by how much the
+    /// last solution changed them.
+    #[inline(always)]
+    fn iterate<M: Mechanism, C: Coordinates<M>>(
+        &self,
+        saddle: &Saddle<'_, S, M, C, Compliant>,
+        last: &mut Solution<S, M, C>,
+        next: &mut Solution<S, M, C>,
+    ) -> Result<Option<S>, Fault> {
+        let mut change = S::zero();
+        for iterations in 2..=self.max_iterations {
+            *last = *next;
+            saddle.solve_again(next);
+            next.iterations = iterations;
+            change = norm_of_difference(&next.accelerations, &last.accelerations);
+            if self.small(change, next) {
+                return Ok(None);
+            }
+            if !change.is_finite() {
+                let origin = NotFinite::Unknown;
+                return Err(Fault::RatesNotFinite { origin });
+            }
+        }
+        Ok(Some(change))
+    }
+
     /// As many solutions as it takes.
     #[inline(never)]
     fn until_small<M: Mechanism, C: Coordinates<M>>(
@@ -203,20 +230,9 @@ impl<S: Real> AugmentedLagrangian<S> {
         next: &mut Solution<S, M, C>,
     ) -> Result<(), Fault> {
         let mut last = *next;
-        let mut change = S::zero();
-        for iterations in 2..=self.max_iterations {
-            last = *next;
-            saddle.solve_again(next);
-            next.iterations = iterations;
-            change = norm_of_difference(&next.accelerations, &last.accelerations);
-            if self.small(change, next) {
-                return Ok(());
-            }
-            if !change.is_finite() {
-                let origin = NotFinite::Unknown;
-                return Err(Fault::RatesNotFinite { origin });
-            }
-        }
+        let Some(change) = self.iterate(saddle, &mut last, next)? else {
+            return Ok(());
+        };
         // With the rows of all joints a state of self-stress can be told from masses that are too
         // large; of the rows that remain in joint coordinates, by what they load free bodies.
         let multipliers = difference_of(&next.multipliers, &last.multipliers);
@@ -277,6 +293,33 @@ impl<S: Real> AugmentedLagrangian<S> {
             }
             stiffness <= S::constant(ACCEPTED * ACCEPTED) * of_bodies
         })
+    }
+
+    /// A solution on the way through a singular configuration: as often as it takes, at most
+    /// `max_iterations` times.
+    ///
+    /// # Errors
+    /// [`Fault::NotConverged`] where what still changes is no state of self-stress that the motion
+    /// leaves.
+    pub(super) fn straight_on<M: Mechanism, C: Coordinates<M>>(
+        &self,
+        saddle: &Saddle<'_, S, M, C, Compliant>,
+        next: &mut Solution<S, M, C>,
+    ) -> Result<(), Fault> {
+        let mut last = *next;
+        let Some(change) = self.iterate(saddle, &mut last, next)? else {
+            return Ok(());
+        };
+        let multipliers = difference_of(&next.multipliers, &last.multipliers);
+        let is_passing = match saddle.by_all_rows(&next.accelerations, &multipliers) {
+            Some(rows) => matches!(acceptance(saddle.time, &rows).1, Acceptance::Passing),
+            None => self.loads_no_motion(saddle, next, &multipliers),
+        };
+        if is_passing {
+            Ok(())
+        } else {
+            Err(self.not_converged(self.max_iterations, change, None))
+        }
     }
 
     #[cold]

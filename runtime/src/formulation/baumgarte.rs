@@ -12,6 +12,9 @@ use crate::mechanism::kernels::{Stabilisation, Stabilised};
 /// `1 / alpha`; explicit steps must be shorter than about `2 / alpha`; beyond that violations grow,
 /// at once or after some time. Baumgarte, *Stabilization of constraints and integrals of motion in
 /// dynamical systems*, Comput. Methods Appl. Mech. Eng. 1 (1972), 1-16; Flores 2015, chapter 12.
+///
+/// On its way through a singular configuration a run solves an
+/// [`AugmentedLagrangian`](super::AugmentedLagrangian) with these terms, and goes straight on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Baumgarte<S> {
     /// `alpha` (1/s), positive.

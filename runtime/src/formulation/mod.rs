@@ -34,9 +34,11 @@ mod consistency;
 mod derived;
 mod penalty;
 mod standard;
+mod straight_on;
 
 pub(crate) use augmented_lagrangian::{add, combine};
 pub(crate) use consistency::inconsistency;
+pub(crate) use straight_on::StraightOn;
 
 pub use augmented_lagrangian::AugmentedLagrangian;
 pub use baumgarte::Baumgarte;

@@ -9,6 +9,9 @@ use crate::mechanism::kernels::{Plain, Stabilisation};
 ///
 /// The violation of the constraints grows with the error of the integration: linearly in `Phi'` and
 /// quadratically in `Phi`, without bound. Flores 2015, chapter 11.
+///
+/// On its way through a singular configuration a run solves an
+/// [`AugmentedLagrangian`](super::AugmentedLagrangian) in its place, and goes straight on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StandardLagrange;
 

@@ -187,6 +187,7 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Heed
     const PRESENT: bool = A::PRESENT || A::Tracked::COUNT > 0;
     const INTERACTS: bool = A::Tracked::COUNT > 0;
     const HEEDS: bool = A::HEEDS;
+    const OF_RUN: bool = A::OF_RUN;
 
     type Tracked = Nothing;
     type Own = Nothing;

@@ -33,6 +33,10 @@ pub trait AppliedForces<S: Scalar, M: Mechanism> {
     #[doc(hidden)]
     const HEEDS: bool = true;
 
+    /// Whether they are lent to a run, and not owned by a stepper.
+    #[doc(hidden)]
+    const OF_RUN: bool = false;
+
     /// The interactions of a run with these forces.
     #[doc(hidden)]
     type Tracked: Several<Tracked<S, M>>;
@@ -136,6 +140,7 @@ impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for &A
     const PRESENT: bool = A::PRESENT;
     const INTERACTS: bool = A::INTERACTS;
     const HEEDS: bool = A::HEEDS;
+    const OF_RUN: bool = true;
 
     type Tracked = A::Tracked;
     type Own = A::Own;

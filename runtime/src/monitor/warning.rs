@@ -230,8 +230,8 @@ impl fmt::Display for Warning {
             }
             Self::NearlySingular { joint, fall, time } => write!(
                 f,
-                "passed a singular configuration, or nearly, at {} s, joint `{joint}` (its pivot fell to {} of the largest): which way it went \
-                 on is not certain; use a projection and compare two tolerances",
+                "passed a singular configuration, or nearly, at {} s, joint `{joint}` (its pivot fell to {} of the largest): another branch \
+                 begins there, and a run goes straight on where it can; compare two tolerances",
                 Measured(time),
                 Measured(fall)
             ),

@@ -17,6 +17,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
+use crate::run::branching::Branching;
 use crate::run::followed::bodies_within;
 use crate::run::post_step::PostStabilisation;
 use crate::state::vector::{Array, StateParts, Vector as _};
@@ -237,6 +238,8 @@ where
     is_open: bool,
     bodies: M::State<S>,
     found: Verification<S, M>,
+    /// Where joints are closed without a stabilisation, as in the first run.
+    branching: Branching<S>,
 }
 
 impl<S, M, F, A, C, I> Companion<S, M, F, A, C, I>
@@ -261,6 +264,7 @@ where
             is_open: false,
             bodies: *bodies,
             found: Verification::nothing(),
+            branching: Branching::none(),
         }
     }
 
@@ -345,12 +349,21 @@ where
                     stabilisation.stabilise(constants, integration.time(), &mut self.bodies)?;
                     let state = self.dynamics.nearest_to(&self.bodies, integration.state());
                     integration.replace(state);
+                } else if self.branching.is_near() {
+                    let constants = self.dynamics.constants();
+                    self.bodies = Branching::closed::<M>(constants, end, &self.bodies);
+                    let state = self.dynamics.nearest_to(&self.bodies, integration.state());
+                    integration.replace(state);
                 }
             }
             if integration.time() >= time {
                 break;
             }
             integration.advance(&mut self.dynamics)?;
+            if stabilisation.is_none() {
+                let (time, state) = (integration.time(), integration.state());
+                self.branching.step(&mut self.dynamics, time, state);
+            }
             self.is_open = true;
             if integration.counts().evaluations > budget {
                 return Err(Fault::Budget {

@@ -28,11 +28,13 @@
 //! `Recorder` builds a line in memory and writes it by one call, so that only the last line can be
 //! torn. After a failed write it refuses further lines. It knows a mechanism by its report alone.
 
+pub(crate) mod branching;
 #[cfg(feature = "std")]
 pub(crate) mod checkpoint;
 #[cfg(feature = "recorder")]
 mod columns;
 pub(crate) mod companion;
+mod corrected;
 mod deferred;
 pub(crate) mod dense_step;
 pub(crate) mod direct;

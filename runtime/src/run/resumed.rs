@@ -3,7 +3,7 @@
 use crate::dynamics::Dynamics;
 use crate::error::{CheckpointFault, Fault};
 use crate::formulation::Formulation;
-use crate::integrate::{Advance, System as _};
+use crate::integrate::{Advance, Memory, System as _};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
@@ -66,16 +66,24 @@ where
     /// Takes over what was counted, and what events, interactions and the monitor remember.
     pub(crate) fn take_past(&mut self, past: &Past<'_, S, M>) -> Result<(), Fault> {
         self.begin_interactions()?;
-        let list = self.dynamics.tracked();
+        let (list, mut near) = (self.dynamics.tracked(), self.dynamics.near);
+        let branching = &mut self.branching;
+        let mut remember_branches = |memory: &mut Memory<'_, S>| {
+            if Dynamics::<S, M, F, A, C>::CLOSES {
+                branching.remember(memory, &mut near);
+            }
+        };
         let is_whole = match &mut self.hybrid {
             Some(hybrid) => past.events.read(|memory| {
                 hybrid.remember(list, memory);
                 if !M::SEPARATIONS.is_empty() {
                     self.passing.remember(memory);
                 }
+                remember_branches(memory);
             }),
-            None => past.events.read(|_| ()),
+            None => past.events.read(remember_branches),
         };
+        self.dynamics.near = near;
         if !is_whole {
             return Err(refused(CheckpointFault::Happenings));
         }

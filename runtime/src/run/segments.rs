@@ -11,7 +11,8 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::monitor::{Monitor, fastest};
+use crate::monitor::Monitor;
+use crate::run::branching::Branching;
 use crate::run::companion::Companion;
 use crate::run::deferred::Deferred;
 use crate::run::events::list::Hybrid;
@@ -47,6 +48,8 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
     pub(crate) deferred: Deferred<C::State<S>>,
     /// How fast (rad/s) a state moved that no correction could bring back.
     pub(crate) gone: Option<S>,
+    /// Where joints are closed without a stabilisation.
+    pub(crate) branching: Branching<S>,
 }
 
 /// A step that was taken, and looked into for the monitor. In a place of its own over all steps, as
@@ -314,7 +317,7 @@ where
                 integration.counts().evaluations == taken.evaluations
             } else {
                 // Or as the slope at the start of the next step.
-                taken.looks <= 1 && self.stabilisation.is_none() && !A::INTERACTS
+                taken.looks <= 1 && !self.corrects() && !A::INTERACTS
             };
             if !is_shared {
                 begun.of_monitor = begun.of_monitor.saturating_add(taken.looks);
@@ -409,7 +412,8 @@ where
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
         let time = integration.time();
-        if self.may_defer() && self.deferred.defer(integration.state(), time - last_good.0) {
+        let may_defer = self.may_defer() && !self.branching.is_near();
+        if may_defer && self.deferred.defer(integration.state(), time - last_good.0) {
             last_good.0 = time;
             self.steps = self.steps.saturating_add(1);
             self.log.unseen += 1;
@@ -417,8 +421,8 @@ where
         }
         let near = &last_good.1;
         let mut state = self.dynamics.bodies_counted(integration.state(), near);
-        if let Some(stabilisation) = self.stabilisation {
-            state = self.stabilised(stabilisation, time, state)?;
+        if self.corrects() {
+            state = self.corrected(time, state)?;
             let state = self.dynamics.nearest_to(&state, integration.state());
             integration.replace(state);
         }
@@ -459,8 +463,8 @@ where
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
         self.passing.ends_with_a_jump();
-        if let Some(stabilisation) = self.stabilisation {
-            bodies = self.stabilised(stabilisation, time, bodies)?;
+        if self.corrects() {
+            bodies = self.corrected(time, bodies)?;
         }
         if self.monitor.is_some() {
             self.dynamics.see_pivot(time, &bodies);
@@ -498,32 +502,6 @@ where
         *last_good = (time, state);
         self.log.unseen += 1;
         Ok(())
-    }
-
-    /// A state after its stabilisation.
-    #[inline(never)]
-    pub(crate) fn stabilised(
-        &mut self,
-        stabilisation: &dyn PostStabilisation<S, M>,
-        time: S,
-        reached: M::State<S>,
-    ) -> Result<M::State<S>, Fault> {
-        let constants = self.dynamics.constants();
-        let mut state = reached;
-        let residual = match stabilisation.stabilise(constants, time, &mut state) {
-            Ok(residual) => residual,
-            Err(fault) => {
-                // A correction that fails may leave any velocities.
-                self.gone = Some(fastest::<S, M>(constants, &reached));
-                return Err(fault);
-            }
-        };
-        if let Some(monitor) = &mut self.monitor
-            && residual > S::zero()
-        {
-            monitor.accept_unconverged_correction(time);
-        }
-        Ok(state)
     }
 
     pub(crate) fn show<I: Integrator<S, Dynamics<S, M, F, A, C>>>(

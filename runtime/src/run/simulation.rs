@@ -21,6 +21,7 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::mechanism::limits::Several as _;
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Monitor;
+use crate::run::branching::Branching;
 use crate::run::companion::Companion;
 use crate::run::deferred::Deferred;
 use crate::run::events::list::{Happenings, Hybrid, NothingHappens};
@@ -171,6 +172,7 @@ where
     }
 
     /// Corrects the state onto the constraints after every step, and every state that is reported.
+    /// Without it a run does so on its way through a singular configuration alone.
     #[must_use]
     pub fn projection(mut self, projection: Projection<S>) -> Self {
         self.projection = Some(projection);
@@ -434,6 +436,7 @@ where
         let given = *dynamics.parameters();
         let forces = Heeding::new(&self.forces, &given);
         let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
+        dynamics.be_near();
         let described = M::initial_state(dynamics.constants());
         let length = characteristic_length::<S, M>(dynamics.constants(), &described);
         let integrator = &self.integrator.for_length(length);
@@ -487,7 +490,8 @@ where
             let formulation = self.formulation.companion();
             let dynamics = Dynamics::of_parameters(given, formulation)?;
             let forces = Heeding::new(&self.forces, &given);
-            let dynamics = dynamics.with_forces(forces).coordinates::<C>();
+            let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
+            dynamics.be_near();
             integrator.map(|integrator| Companion::new(dynamics, integrator, (start, &state)))
         } else {
             None
@@ -507,6 +511,7 @@ where
             counts: Counts::default(),
             deferred: Deferred::new(),
             gone: None,
+            branching: Branching::none(),
         };
         run.go(integrator, companion, (start, end), last_good, past)
     }

@@ -41,6 +41,10 @@ where
         if !self.dynamics.knows_turns(integration.state()) {
             self.recount(integration, last_good)?;
         }
+        if self.stabilisation.is_none() {
+            let (time, state) = (integration.time(), integration.state());
+            self.branching.step(&mut self.dynamics, time, state);
+        }
         let &mut (start, ref near) = last_good;
         (taken.event, taken.better) = (None, None);
         if self.looks_for_events() {

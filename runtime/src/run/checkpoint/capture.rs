@@ -112,6 +112,9 @@ where
             if !M::SEPARATIONS.is_empty() {
                 self.passing.remember(memory);
             }
+            if Dynamics::<S, M, F, A, C>::CLOSES {
+                self.branching.remember(memory, &mut self.dynamics.near);
+            }
         });
         let mut warnings = hybrid.former.clone();
         if let Some(mut monitor) = self.monitor {
