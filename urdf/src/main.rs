@@ -12,8 +12,8 @@ use holonom_urdf::{Options, Robot};
 
 /// Prints the annotated struct that holonom takes, from a URDF file.
 ///
-/// The source goes to standard output. Every fault of the file goes to standard error with its line,
-/// and so does what is skipped.
+/// The source goes to standard output. Every fault of the file goes to standard error with its
+/// line, and so does what is skipped.
 #[derive(Debug, Parser)]
 #[command(version)]
 struct Arguments {

@@ -20,7 +20,8 @@ impl Robot {
     ///
     /// # Errors
     ///
-    /// Every fault of the file with its line. The text is no URDF. The links form no tree. A link that moves could be no rigid body.
+    /// Every fault of the file with its line. The text is no URDF. The links form no tree. A link
+    /// that moves could be no rigid body.
     pub fn parse(text: &str) -> Result<Self, Faults> {
         Self::read(text, false)
     }

@@ -50,6 +50,37 @@ impl<S: Real> Motion<S> {
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
+    /// What comes after an instant: of a quantity on a limit, by its sign, or engaged, that rests
+    /// there or goes on. Nothing of one that is held without a bound and does not rest.
+    fn next(
+        &self,
+        (at_limit, is_engaged, rests): (Option<S>, bool, bool),
+        rate: S,
+    ) -> Option<Next<S>> {
+        let is_held = self
+            .friction()
+            .is_some_and(|held| !held.capacity.is_finite());
+        if is_held && is_engaged && !rests {
+            return None;
+        }
+        Some(match at_limit {
+            Some(sign) if rests => Next::On(sign),
+            _ if !is_engaged => Next::Without,
+            _ if rests => Next::Still,
+            _ if rate > S::zero() => Next::Moving(S::one()),
+            _ => Next::Moving(-S::one()),
+        })
+    }
+
+    /// Begins what comes next, without an effort until that is known.
+    fn enter_next(&self, next: Next<S>) {
+        self.update(|status| {
+            status.before = status.mode;
+            status.next = next;
+            status.mode = InteractionMode::Free;
+        });
+    }
+
     pub(super) fn friction(&self) -> Option<&Friction<S>> {
         match &self.interaction.law {
             Law::Friction(friction) => Some(friction),
@@ -191,27 +222,9 @@ where
     *change = Array::zeros();
     columns.add_velocities(&impulses, change);
     for (index, tracked) in list.iter().enumerate() {
-        let rate = motions[index].rate;
-        if let Some(friction) = tracked.friction()
-            && is_engaged[index]
-            && !rests[index]
-            && !friction.capacity.is_finite()
-        {
-            return Err(no_mode(setting, tracked));
-        }
-        let next = match at_limit[index] {
-            Some(sign) if rests[index] => Next::On(sign),
-            _ if !is_engaged[index] => Next::Without,
-            _ if rests[index] => Next::Still,
-            _ if rate > S::zero() => Next::Moving(S::one()),
-            _ => Next::Moving(-S::one()),
-        };
-        tracked.update(|status| {
-            status.before = status.mode;
-            status.next = next;
-            // Without an effort until the next one is known.
-            status.mode = InteractionMode::Free;
-        });
+        let (limit, engaged) = (at_limit[index], is_engaged[index]);
+        let next = tracked.next((limit, engaged, rests[index]), motions[index].rate);
+        tracked.enter_next(next.ok_or_else(|| no_mode(setting, tracked))?);
     }
     Ok(())
 }
