@@ -12,8 +12,9 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 
-/// A relative pivot, as the square of a distance, that is far from zero.
-const FAR: f64 = 0.05;
+/// A relative pivot, as the square of a distance, that is far from zero. Of a pendulum by bodies
+/// pivots fall to a hundredth, where nothing is singular.
+const FAR: f64 = 1e-3;
 
 /// The change of a pivot in a step, relative, from which on ten steps or so may reach zero.
 const CHANGED: f64 = 0.2;
