@@ -22,8 +22,8 @@ const CHANGED: f64 = 0.2;
 /// A pivot from which on it is asked whatever a step changes.
 const CLOSE: f64 = 1e-4;
 
-/// The part of a pivot, where the motion passed no singular configuration, from which on it is asked
-/// again.
+/// The part of a pivot, where the motion passed no singular configuration, from which on it is
+/// asked again.
 const AGAIN: f64 = 0.5;
 
 /// Whether steps end near to a singular configuration that the motion passes.
