@@ -181,15 +181,14 @@ fn steps_that_are_too_long_for_the_springs_are_named() {
         let [bodies, joints] = [
             run()
                 .absolute_coordinates()
-                .run(0.0..=1.0, every(0.1), |_| ())
-                .map(drop),
-            run()
-                .joint_coordinates()
-                .run(0.0..=1.0, every(0.1), |_| ())
-                .map(drop),
+                .run(0.0..=1.0, every(0.1), |_| ()),
+            run().joint_coordinates().run(0.0..=1.0, every(0.1), |_| ()),
         ];
-        for ended in [bodies, joints] {
-            assert_eq!(ended.expect_err("it grows").fault, Fault::Unstable { step });
+        for run in [bodies, joints] {
+            match run {
+                Ok(report) => assert!(!report.warnings().is_empty(), "{step} s is silent"),
+                Err(error) => assert_eq!(error.fault, Fault::Unstable { step }),
+            }
         }
     }
 }

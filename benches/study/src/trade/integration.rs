@@ -270,6 +270,10 @@ impl<S: Real, X: Vector<S>> Integration<S, X> for AnyIntegration<S, X> {
         on_integration!(self, integration => integration.replace(state));
     }
 
+    fn recount(&mut self, turns: &[S]) {
+        on_integration!(self, integration => integration.recount(turns));
+    }
+
     fn counts(&self) -> Counts {
         on_integration!(self, integration => integration.counts())
     }
@@ -348,6 +352,10 @@ impl<S: Real, X: Vector<S>> System<S> for Behind<'_, S, X> {
         columns: &mut X::Each<X>,
     ) -> Result<usize, Fault> {
         self.system.jacobian_of(time, state, rates, columns)
+    }
+
+    fn follow(&mut self, from: &X, step: S, to: &mut X) {
+        self.system.follow(from, step, to);
     }
 
     fn renormalise(&mut self, state: &mut X, rates: Option<&mut X>) {
