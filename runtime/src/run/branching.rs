@@ -36,11 +36,19 @@ pub(crate) struct Branching<S> {
     is_due: bool,
     /// The pivot from which on it is asked.
     asked: S,
+    /// Whether the error of steps is controlled.
+    is_controlled: bool,
 }
 
 impl<S: Real> Branching<S> {
-    pub(crate) fn none() -> Self {
+    /// Of steps whose error is controlled, or of fixed ones.
+    ///
+    /// Control shortens steps on the way to a singular configuration until a stage falls upon it,
+    /// so equations yield on the way there. No stage of a fixed step does, or one by chance:
+    /// equations hold as they are, and yield where a pivot vanishes.
+    pub(crate) fn of(is_controlled: bool) -> Self {
         Self {
+            is_controlled,
             last: None,
             is_near: false,
             is_due: false,
@@ -88,7 +96,9 @@ impl<S: Real> Branching<S> {
         if pivot >= S::constant(FAR) {
             self.is_near = false;
             self.asked = S::constant(FAR);
-            dynamics.be_near();
+            if self.is_controlled {
+                dynamics.be_near();
+            }
         } else if self.is_near || pivot < self.asked {
             let changed = last
                 .is_some_and(|last| (pivot - last).abs() > S::constant(CHANGED) * pivot.min(last));

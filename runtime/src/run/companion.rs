@@ -256,6 +256,7 @@ where
         integrator: I,
         (time, bodies): (S, &M::State<S>),
     ) -> Self {
+        let is_controlled = integrator.fixed_step().is_none();
         Self {
             dynamics,
             integrator,
@@ -264,7 +265,7 @@ where
             is_open: false,
             bodies: *bodies,
             found: Verification::nothing(),
-            branching: Branching::none(),
+            branching: Branching::of(is_controlled),
         }
     }
 

@@ -436,10 +436,13 @@ where
         let given = *dynamics.parameters();
         let forces = Heeding::new(&self.forces, &given);
         let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
-        dynamics.be_near();
         let described = M::initial_state(dynamics.constants());
         let length = characteristic_length::<S, M>(dynamics.constants(), &described);
         let integrator = &self.integrator.for_length(length);
+        let is_controlled = integrator.fixed_step().is_none();
+        if is_controlled {
+            dynamics.be_near();
+        }
         if let Some(past) = past {
             take_values(&mut dynamics, past)?;
             dynamics.renew_limits()?;
@@ -491,7 +494,9 @@ where
             let dynamics = Dynamics::of_parameters(given, formulation)?;
             let forces = Heeding::new(&self.forces, &given);
             let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
-            dynamics.be_near();
+            if is_controlled {
+                dynamics.be_near();
+            }
             integrator.map(|integrator| Companion::new(dynamics, integrator, (start, &state)))
         } else {
             None
@@ -511,7 +516,7 @@ where
             counts: Counts::default(),
             deferred: Deferred::new(),
             gone: None,
-            branching: Branching::none(),
+            branching: Branching::of(is_controlled),
         };
         run.go(integrator, companion, (start, end), last_good, past)
     }
