@@ -140,19 +140,23 @@ fn beginning<S: Real, M: Mechanism, const K: usize>(
 ) -> [Option<(S, S)>; K] {
     let (list, keeps_shares) = (capacities.list, capacities.loads.is_some());
     let can_be_held = held_at_bounds(list, problem, solution, at_work, sliding, keeps_shares);
-    core::array::from_fn(|index| {
-        let tracked = &list[index];
-        tracked.friction()?;
-        if (tracked.status.get().next, sliding[index]) != (Next::Still, None) {
-            return None;
+    let mut beginning = [None; K];
+    for (index, tracked) in list.iter().enumerate() {
+        let is_friction = tracked.friction().is_some();
+        if !is_friction || (tracked.status.get().next, sliding[index]) != (Next::Still, None) {
+            continue;
         }
-        let is_held = can_be_held[index];
-        let sign = begins_to_slide(problem.upper[index], solution, (index, is_held))?;
+        let at = (index, can_be_held[index]);
         let root = at_work.1[index];
-        let acceleration = solution.residuals[index].abs().quotient(root);
-        let is_free = root > S::zero();
-        Some((sign, if is_free { acceleration } else { S::zero() }))
-    })
+        let acceleration = if root > S::zero() {
+            solution.residuals[index].abs().quotient(root)
+        } else {
+            S::zero()
+        };
+        let sign = begins_to_slide(problem.upper[index], solution, at);
+        beginning[index] = sign.map(|sign| (sign, acceleration));
+    }
+    beginning
 }
 
 /// Lets friction slide; whether an effort has changed by that. Of those whose stiction is more than
@@ -165,28 +169,27 @@ fn begin<S: Real, M: Mechanism, const K: usize>(
     beginning: [Option<(S, S)>; K],
     sliding: &mut [Option<S>; K],
 ) -> bool {
-    let mut most = None;
-    let mut changes = [false; K];
-    for (index, beginning) in beginning.iter().enumerate() {
-        let Some((sign, acceleration)) = *beginning else {
+    let mut changes = [None; K];
+    for (index, _) in capacities.list.iter().enumerate() {
+        let Some((sign, acceleration)) = beginning[index] else {
             continue;
         };
         let load = capacities.load(index, &solution.efforts);
         let (effort, _) = capacities.bounds(index, Some(sign), load);
-        changes[index] = problem.lower[index] != effort && problem.upper[index] != effort;
-        if changes[index] && most.is_none_or(|most| acceleration > most) {
-            most = Some(acceleration);
-        }
+        let is_changed = problem.lower[index] != effort && problem.upper[index] != effort;
+        changes[index] = is_changed.then_some(acceleration);
     }
-    for (index, beginning) in beginning.iter().enumerate() {
-        let Some((sign, acceleration)) = *beginning else {
-            continue;
+    let most = changes.iter().flatten().copied().reduce(S::max);
+    let least = most.map(|most| most * (S::one() - S::constant(ALIKE)));
+    let next = beginning.iter().zip(&changes).zip(sliding);
+    for ((beginning, change), sliding) in next {
+        let goes = match (least, change) {
+            (Some(least), Some(acceleration)) => *acceleration >= least,
+            (Some(_), None) => false,
+            (None, _) => true,
         };
-        let goes = most.is_none_or(|most| {
-            changes[index] && acceleration >= most * (S::one() - S::constant(ALIKE))
-        });
-        if goes {
-            sliding[index] = Some(sign);
+        if let (true, Some((sign, _))) = (goes, beginning) {
+            *sliding = Some(*sign);
         }
     }
     most.is_some()
