@@ -73,6 +73,14 @@ where
         }
     }
 
+    /// Begins a run, whose steps are controlled or fixed: controlled ones ask from all
+    /// pivots that are near to none.
+    pub(crate) fn begin_near(&mut self, is_controlled: bool) {
+        if is_controlled {
+            self.be_near();
+        }
+    }
+
     /// The rates at a state near to a singular configuration that the motion passes; `None` where
     /// it stays there, and where no rates go straight on.
     ///

@@ -440,9 +440,7 @@ where
         let length = characteristic_length::<S, M>(dynamics.constants(), &described);
         let integrator = &self.integrator.for_length(length);
         let is_controlled = integrator.fixed_step().is_none();
-        if is_controlled {
-            dynamics.be_near();
-        }
+        dynamics.begin_near(is_controlled);
         if let Some(past) = past {
             take_values(&mut dynamics, past)?;
             dynamics.renew_limits()?;
@@ -494,9 +492,7 @@ where
             let dynamics = Dynamics::of_parameters(given, formulation)?;
             let forces = Heeding::new(&self.forces, &given);
             let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
-            if is_controlled {
-                dynamics.be_near();
-            }
+            dynamics.begin_near(is_controlled);
             integrator.map(|integrator| Companion::new(dynamics, integrator, (start, &state)))
         } else {
             None
