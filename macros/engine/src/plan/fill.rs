@@ -41,7 +41,7 @@ mod tests {
     fn filled(order: [usize; 7]) -> usize {
         let hinge = |body: usize| Block {
             equations: 5,
-            bodies: [body, (body + 1) / 2 - 1].into_iter().collect(),
+            bodies: [body, (body - 1) / 2].into_iter().collect(),
         };
         let trunk = || Block {
             equations: 5,
