@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use roxmltree::Node;
 
-use crate::elements::{Lines, Reader};
+use crate::elements::{Lines, Reader, is};
 use crate::faults::Collector;
 use crate::spatial::{Frame, Inertia};
 use crate::visuals::{self, Visual};
@@ -168,10 +168,10 @@ pub(crate) fn read(
         joints: Vec::new(),
     };
     for node in robot.children().filter(Node::is_element) {
-        let tag = node.tag_name().name();
-        if tag != "link" && tag != "joint" {
+        let tags = ["link", "joint"];
+        let Some(tag) = tags.into_iter().find(|tag| is(node, tag)) else {
             continue;
-        }
+        };
         reader.owner = tag.to_owned();
         let Some(name) = reader.text(node, "name") else {
             continue;

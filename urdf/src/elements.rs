@@ -40,7 +40,7 @@ impl Reader<'_> {
 
     /// The only child element of a name, if it is there.
     pub(crate) fn child<'n, 'i>(&mut self, node: Node<'n, 'i>, tag: &str) -> Option<Node<'n, 'i>> {
-        let mut all = node.children().filter(|child| child.has_tag_name(tag));
+        let mut all = node.children().filter(|child| is(*child, tag));
         let first = all.next();
         if let Some(second) = all.next() {
             self.at(second, &format!("a second <{tag}>; one is accepted"));
@@ -154,11 +154,12 @@ impl Reader<'_> {
     pub(crate) fn skip_others(&mut self, node: Node<'_, '_>, read: &[&str], known: &[&str]) {
         for child in others(node, read) {
             let (name, space) = (child.tag_name().name(), child.tag_name().namespace());
-            if space.is_none() && known.contains(&name) {
+            let is_own = !is_foreign(child);
+            if is_own && known.contains(&name) {
                 continue;
             }
             let mut words = read.iter().chain(known);
-            let meant = words.find(|word| space.is_none() && is_like(name, word));
+            let meant = words.find(|word| is_own && is_like(name, word));
             if space.is_some_and(|space| space.contains("xacro")) {
                 let message = format!("<xacro:{name}> is no URDF; run `xacro` on the file first");
                 self.at(child, &message);
@@ -182,8 +183,19 @@ impl Reader<'_> {
 /// Elements of other tools without which the mechanism is another one.
 const CLOSING: &[&str] = &["loop_joint"];
 
+/// Whether an element has a name of URDF.
+pub(crate) fn is(node: Node<'_, '_>, tag: &str) -> bool {
+    node.has_tag_name(tag) && !is_foreign(node)
+}
+
+/// Whether an element has a prefix, so that it is another tool's whatever its name is.
+fn is_foreign(node: Node<'_, '_>) -> bool {
+    let robot = node.document().root_element();
+    node.tag_name().namespace() != robot.tag_name().namespace()
+}
+
 /// Child elements that are none of some.
 fn others<'n, 'i>(node: Node<'n, 'i>, read: &[&str]) -> impl Iterator<Item = Node<'n, 'i>> {
     let elements = node.children().filter(Node::is_element);
-    elements.filter(|child| !read.contains(&child.tag_name().name()))
+    elements.filter(|child| !read.iter().any(|tag| is(*child, tag)))
 }

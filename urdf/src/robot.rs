@@ -121,9 +121,8 @@ fn read(text: &str, quarter_turns: bool, faults: &mut Collector) -> Option<(Docu
 /// So many prefixes of a file may lack their namespace.
 const PREFIXES: usize = 32;
 
-/// The text as readers of URDF take it, that do not ask for the letter of XML, line by line as it
-/// is: a declaration that does not stand first is left out, and prefixes without a namespace get
-/// one.
+/// The text as other readers of URDF take it, which do not keep to the letter of XML. A declaration
+/// that does not stand first is left out. A prefix without a namespace gets one. Lines stay.
 fn as_readers_take_it(text: &str) -> String {
     let mut text = text.to_owned();
     if let Some(start) = text.find("<?xml ").filter(|start| *start > 0)

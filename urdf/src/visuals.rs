@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use roxmltree::Node;
 
 use crate::describe::clean;
-use crate::elements::Reader;
+use crate::elements::{Reader, is};
 use crate::mechanism::Shape;
 use crate::spatial::Frame;
 
@@ -34,14 +34,12 @@ pub(crate) enum Solid {
 
 /// The visuals of a link, in the order of the file. Those without geometry are left out.
 pub(crate) fn read(reader: &mut Reader<'_>, link: Node<'_, '_>) -> Vec<Visual> {
-    let all = link.children().filter(|child| child.has_tag_name("visual"));
+    let all = link.children().filter(|child| is(*child, "visual"));
     all.filter_map(|node| visual(reader, node)).collect()
 }
 
 fn visual(reader: &mut Reader<'_>, node: Node<'_, '_>) -> Option<Visual> {
-    let geometry = node
-        .children()
-        .find(|child| child.has_tag_name("geometry"))?;
+    let geometry = node.children().find(|child| is(*child, "geometry"))?;
     let shape = geometry.children().find(Node::is_element)?;
     let name = shape.tag_name().name();
     let solid = match name {

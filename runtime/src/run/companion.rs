@@ -345,14 +345,16 @@ where
                 let state = integration.state();
                 self.bodies = self.dynamics.bodies_counted(state, &self.bodies);
                 self.time = end;
-                if let Some(stabilisation) = stabilisation {
+                if stabilisation.is_some() || self.branching.is_near() {
                     let constants = self.dynamics.constants();
-                    stabilisation.stabilise(constants, integration.time(), &mut self.bodies)?;
-                    let state = self.dynamics.nearest_to(&self.bodies, integration.state());
-                    integration.replace(state);
-                } else if self.branching.is_near() {
-                    let constants = self.dynamics.constants();
-                    self.bodies = Branching::closed::<M>(constants, end, &self.bodies);
+                    match stabilisation {
+                        Some(stabilisation) => {
+                            stabilisation.stabilise(constants, end, &mut self.bodies)?;
+                        }
+                        None => {
+                            self.bodies = Branching::closed::<M>(constants, end, &self.bodies);
+                        }
+                    }
                     let state = self.dynamics.nearest_to(&self.bodies, integration.state());
                     integration.replace(state);
                 }

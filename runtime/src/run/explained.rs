@@ -9,6 +9,7 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::fastest;
+use crate::run::passages::LENGTH;
 use crate::run::segments::Run;
 
 impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
@@ -53,7 +54,9 @@ where
             Fault::Singular { .. } => Some(BEYOND),
             Fault::ZeroOrientation { .. } => self.gone.is_some().then_some(1.0),
             // Points that an unstable method throws across each other, step by step.
-            Fault::SlidingLaw { .. } => Some(1.0),
+            Fault::SlidingLaw {
+                expression: LENGTH, ..
+            } => Some(1.0),
             // What a law of time pulls out of reach moves as fast, but is not open as wide.
             Fault::NotConverged { residual, .. } => {
                 let length = characteristic_length::<S, M>(constants, state);

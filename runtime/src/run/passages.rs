@@ -177,12 +177,15 @@ where
     }
 }
 
+/// What a force along a line has as its switch.
+pub(super) const LENGTH: &str = "length";
+
 /// A force that leads its points together again and again.
 #[cold]
 fn holds<S: Real, M: Mechanism>(place: usize, time: S) -> Fault {
     Fault::SlidingLaw {
         law: M::SEPARATIONS.get(place).copied().unwrap_or_default(),
-        expression: "length",
+        expression: LENGTH,
         time: time.to_f64(),
     }
 }

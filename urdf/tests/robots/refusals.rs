@@ -170,7 +170,8 @@ fn elements_of_other_tools_are_skipped_and_named() {
 <?xml version="1.0"?>
 <robot name="arm">
 <link name="base"/>
-<link name="a">{MASS}<sim:wheel radius="1"/><frame/></link>
+<link name="a">{MASS}<sim:inertial/><sim:wheel radius="1"/><frame/></link>
+<sim:link name="none"/>
 <joint name="one" type="continuous"><parent link="base"/><child link="a"/><frame/></joint>
 <frame name="tip"/>
 </robot>"#
@@ -181,7 +182,9 @@ fn elements_of_other_tools_are_skipped_and_named() {
     let skipped = "is no element of URDF and is skipped";
     let left_out = "is left out, and 0 is taken";
     let wanted = [
-        format!("8: <frame> {skipped}, 3 times"),
+        format!("9: <frame> {skipped}, 3 times"),
+        format!("6: <inertial> {skipped}"),
+        format!("7: <link> {skipped}"),
         format!("6: link \"a\": `ixy` {left_out}"),
         format!("6: link \"a\": `ixz` {left_out}"),
         format!("6: link \"a\": `iyz` {left_out}"),
