@@ -34,8 +34,8 @@ type Prepared<S, M, F, A, C> = Dynamics<S, M, F, Heeding<S, M, A>, C>;
 /// what is to be read is read of [`Stepper::bodies`]. Joints of the tree cannot open there;
 /// equations that close loops drift or are stabilised, as the formulation has it.
 ///
-/// It has no warnings. A step over the zero of a law that switches is of first order, and so is one
-/// in which two points pass each other closely along whose line a force acts
+/// It has no warnings. A step over the zero of a law that switches is of first order. So is one in
+/// which two points pass each other closely, where a force acts along their line
 /// ([`switches`](crate::guide::switches#limits)).
 ///
 /// ```
