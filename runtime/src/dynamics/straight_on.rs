@@ -73,7 +73,7 @@ where
         }
     }
 
-    /// Begins a run. Where it controls its steps, it is asked from all pivots that are near to none.
+    /// Begins a run. Where it controls its steps, all pivots that are near to none are asked about.
     pub(crate) fn begin_near(&mut self, is_controlled: bool) {
         if is_controlled {
             self.be_near();
