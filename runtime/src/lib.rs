@@ -60,6 +60,7 @@ mod nonsmooth;
 pub mod run;
 pub mod sensitivity;
 pub mod state;
+mod stepping;
 /// Functions from tables.
 pub mod spline {
     pub use crate::math::spline::{Spline, SplineFault, uniform_knots};

@@ -12,7 +12,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 type Module = Vec<String>;
 
 /// The rooms of the run time, each behind those that it may use.
-const RUNTIME: [&str; 17] = [
+const RUNTIME: [&str; 18] = [
     "math",
     "error",
     "state",
@@ -27,6 +27,7 @@ const RUNTIME: [&str; 17] = [
     "measure",
     "independent",
     "dynamics",
+    "stepping",
     "run",
     "sensitivity",
     "lanes",

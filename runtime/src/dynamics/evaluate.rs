@@ -385,6 +385,9 @@ fn sound<S: Real, X: MovingState<S>, T: Terms>(rates: &X, pivot: &Pivot<S>) -> b
 
 /// [`Dynamics`] without its formulation, forces and coordinates in the type.
 pub(crate) trait Evaluate<S: Real, M: Mechanism> {
+    /// See [`Dynamics::constants`].
+    fn constants(&self) -> &M::Constants<S>;
+
     fn evaluation(&self, time: S, bodies: &M::State<S>) -> Result<Evaluation<S, M>, Fault>;
 
     /// The interactions, with their statuses.
@@ -402,6 +405,10 @@ where
     A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
+    fn constants(&self) -> &M::Constants<S> {
+        Self::constants(self)
+    }
+
     #[inline(never)]
     fn evaluation(&self, time: S, bodies: &M::State<S>) -> Result<Evaluation<S, M>, Fault> {
         self.evaluate_bodies(time, bodies)

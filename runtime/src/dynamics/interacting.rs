@@ -40,40 +40,6 @@ where
         Ok(())
     }
 
-    /// Leaves the efforts that conditions of modes ask for in the statuses.
-    pub(crate) fn look_at_modes(&self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
-        let mut list = self.tracked().iter();
-        if list.any(|tracked| tracked.mode().holds()) {
-            self.efforts(time, &self.nearest(bodies))?;
-        }
-        Ok(())
-    }
-
-    /// The reading of the condition under which the mode of an interaction ends, after a look.
-    pub(crate) fn reading_of_mode(
-        &self,
-        number: usize,
-        time: S,
-        bodies: &M::State<S>,
-    ) -> Result<S, Fault> {
-        let Some(tracked) = self.tracked().get(number) else {
-            return Ok(S::one());
-        };
-        let scene = Scene::<S, M> {
-            constants: self.constants(),
-            time,
-            bodies,
-        };
-        let reading = tracked.reading(&scene);
-        if reading.to_f64().is_nan() {
-            return Err(Fault::EventNotANumber {
-                event: tracked.interaction.name(),
-                time: time.to_f64(),
-            });
-        }
-        Ok(reading)
-    }
-
     /// Leaves the efforts of interactions in their statuses.
     pub(crate) fn efforts(&self, time: S, state: &C::State<S>) -> Result<(), Fault> {
         if !A::INTERACTS {

@@ -16,6 +16,7 @@
 //! equation it compares value and gradient with the others, at the start and at a few
 //! configurations and times.
 
+pub(crate) mod equations;
 pub(crate) mod evaluate;
 mod faults;
 mod interacting;

@@ -5,22 +5,18 @@
 //! and goes from report to report with the first. Their difference is about the error of the
 //! coarser one. A bias that does not go with the steps, as of a penalty, is made another one.
 
-use crate::dynamics::Dynamics;
 use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::integrate::{Advance as _, Integration, Integrator, TimeSpan};
+use crate::integrate::TimeSpan;
 use crate::math::quaternion::angle_between;
 use crate::math::scalar::Real;
 use crate::math::vec3::{norm, read};
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
-use crate::run::branching::Branching;
-use crate::run::followed::bodies_within;
 use crate::run::post_step::PostStabilisation;
-use crate::state::vector::{Array, StateParts, Vector as _};
+use crate::state::vector::{Array, StateParts};
+use crate::stepping::branching::closed;
+use crate::stepping::marching::{Marching, Settings};
 
 /// The least error (m, rad) that is followed.
 const LEAST: f64 = 1e-15;
@@ -219,53 +215,35 @@ impl<S: Real, M: Mechanism> core::fmt::Debug for Verification<S, M> {
 }
 
 /// The second run, under way.
-pub(crate) struct Companion<S, M, F, A, C, I>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    I: Integrator<S, Dynamics<S, M, F, A, C>>,
-{
-    dynamics: Dynamics<S, M, F, A, C>,
-    integrator: I,
-    integration: Option<I::Integration>,
+pub(crate) struct Companion<'c, S: Real, M: Mechanism> {
+    march: &'c mut (dyn Marching<S, M> + 'c),
+    settings: Settings<S>,
+    has_begun: bool,
     /// When (s) and how its bodies stood last.
     time: S,
     /// Whether the end of its last step is still to be taken: it lies beyond the last report, or
     /// has just been reached.
     is_open: bool,
+    /// Whether the integration has counted turns through that step.
+    knows_turns: bool,
     bodies: M::State<S>,
     found: Verification<S, M>,
-    /// Where joints are closed without a stabilisation, as in the first run.
-    branching: Branching<S>,
 }
 
-impl<S, M, F, A, C, I> Companion<S, M, F, A, C, I>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    I: Integrator<S, Dynamics<S, M, F, A, C>>,
-{
+impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
     pub(crate) fn new(
-        dynamics: Dynamics<S, M, F, A, C>,
-        integrator: I,
+        march: &'c mut (dyn Marching<S, M> + 'c),
         (time, bodies): (S, &M::State<S>),
     ) -> Self {
-        let is_controlled = integrator.fixed_step().is_none();
         Self {
-            dynamics,
-            integrator,
-            integration: None,
+            settings: march.settings(),
+            march,
+            has_begun: false,
             time,
             is_open: false,
+            knows_turns: true,
             bodies: *bodies,
             found: Verification::nothing(),
-            branching: Branching::of(is_controlled),
         }
     }
 
@@ -275,7 +253,7 @@ where
         span: &TimeSpan<S>,
         stabilisation: Option<&dyn PostStabilisation<S, M>>,
     ) {
-        if self.integration.is_some() {
+        if self.has_begun {
             self.reach(span.start, stabilisation);
         }
         if self.found.ended.is_some() {
@@ -283,11 +261,10 @@ where
         }
         self.count();
         self.is_open = false;
-        let start = self.dynamics.nearest(&self.bodies);
-        match self.integrator.start(&mut self.dynamics, *span, start) {
-            Ok(integration) => self.integration = Some(integration),
+        match self.march.start(*span, &self.bodies) {
+            Ok(()) => self.has_begun = true,
             Err(fault) => {
-                self.integration = None;
+                self.has_begun = false;
                 self.found.ended = Some((span.start, fault));
             }
         }
@@ -316,11 +293,11 @@ where
 
     /// Goes on to a time, unless it has ended.
     fn reach(&mut self, time: S, stabilisation: Option<&dyn PostStabilisation<S, M>>) {
-        if self.found.ended.is_none()
+        if self.has_begun
+            && self.found.ended.is_none()
             && let Err(fault) = self.go(time, stabilisation)
         {
-            let reached = self.integration.as_ref().map_or(time, Integration::time);
-            self.found.ended = Some((reached, fault));
+            self.found.ended = Some((self.march.time(), fault));
         }
     }
 
@@ -329,66 +306,67 @@ where
         time: S,
         stabilisation: Option<&dyn PostStabilisation<S, M>>,
     ) -> Result<(), Fault> {
-        let Some(integration) = &mut self.integration else {
-            return Ok(());
-        };
-        let budget = self.integrator.budget().unwrap_or(usize::MAX);
+        let budget = self.settings.budget;
         let budget = budget.saturating_sub(self.found.evaluations);
         loop {
-            if self.is_open && integration.time() <= time {
+            let end = self.march.time();
+            if self.is_open && end <= time {
                 self.is_open = false;
-                let (near, end) = ((self.time, &self.bodies), integration.time());
-                if !self.dynamics.knows_turns(integration.state()) {
-                    let bodies = bodies_within(&mut self.dynamics, integration, near, end)?;
-                    integration.recount(bodies.turns());
-                }
-                let state = integration.state();
-                self.bodies = self.dynamics.bodies_counted(state, &self.bodies);
-                self.time = end;
-                if stabilisation.is_some() || self.branching.is_near() {
-                    let constants = self.dynamics.constants();
-                    match stabilisation {
-                        Some(stabilisation) => {
-                            stabilisation.stabilise(constants, end, &mut self.bodies)?;
-                        }
-                        None => {
-                            self.bodies = Branching::closed::<M>(constants, end, &self.bodies);
-                        }
-                    }
-                    let state = self.dynamics.nearest_to(&self.bodies, integration.state());
-                    integration.replace(state);
-                }
+                self.take_end(end, stabilisation)?;
             }
-            if integration.time() >= time {
+            if end >= time {
                 break;
             }
-            integration.advance(&mut self.dynamics)?;
-            if stabilisation.is_none() {
-                let (time, state) = (integration.time(), integration.state());
-                self.branching.step(&mut self.dynamics, time, state);
+            self.knows_turns = self.march.advance()?.knows_turns;
+            if self.settings.may_branch && stabilisation.is_none() {
+                self.march.look_for_branches();
             }
             self.is_open = true;
-            if integration.counts().evaluations > budget {
+            let evaluations = self.march.counts().evaluations;
+            if evaluations > budget {
                 return Err(Fault::Budget {
-                    evaluations: integration.counts().evaluations,
+                    evaluations,
                     joint: None,
                 });
             }
         }
-        if integration.time() > time {
-            let near = (self.time, &self.bodies);
-            self.bodies = bodies_within(&mut self.dynamics, integration, near, time)?;
+        if self.march.time() > time {
+            self.bodies = self.march.within((self.time, &self.bodies), time)?;
             self.time = time;
             if let Some(stabilisation) = stabilisation {
-                stabilisation.stabilise(self.dynamics.constants(), time, &mut self.bodies)?;
+                let constants = self.march.equations().constants();
+                stabilisation.stabilise(constants, time, &mut self.bodies)?;
             }
         }
         Ok(())
     }
 
+    /// Takes the end (s) of the last step, as the run takes its own.
+    fn take_end(
+        &mut self,
+        end: S,
+        stabilisation: Option<&dyn PostStabilisation<S, M>>,
+    ) -> Result<(), Fault> {
+        if !self.knows_turns {
+            self.march.recount((self.time, &self.bodies))?;
+        }
+        self.bodies = self.march.bodies(&self.bodies);
+        self.time = end;
+        let constants = self.march.equations().constants();
+        if let Some(stabilisation) = stabilisation {
+            stabilisation.stabilise(constants, end, &mut self.bodies)?;
+        } else if self.settings.may_branch && self.march.is_near_to_branches() {
+            self.bodies = closed::<S, M>(constants, end, &self.bodies);
+        } else {
+            return Ok(());
+        }
+        self.march.replace(&self.bodies);
+        Ok(())
+    }
+
     fn count(&mut self) {
-        if let Some(integration) = &self.integration {
-            let evaluations = integration.counts().evaluations;
+        if self.has_begun {
+            let evaluations = self.march.counts().evaluations;
             self.found.evaluations = self.found.evaluations.saturating_add(evaluations);
         }
     }

@@ -1,28 +1,24 @@
 //! What is done to the end of a step before anybody sees it.
 
 use crate::error::Fault;
-use crate::formulation::Formulation;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::fastest;
-use crate::run::branching::Branching;
 use crate::run::post_step::PostStabilisation;
 use crate::run::segments::Run;
+use crate::stepping::branching::closed;
 
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
+    /// Whether the last step has ended near to a singular configuration that the motion passes.
+    #[inline]
+    pub(crate) fn is_near_to_branches(&self) -> bool {
+        self.settings.may_branch && self.march.is_near_to_branches()
+    }
+
     /// Whether the end of the last step is corrected.
     #[inline]
     pub(crate) fn corrects(&self) -> bool {
-        self.stabilisation.is_some() || self.branching.is_near()
+        self.stabilisation.is_some() || self.is_near_to_branches()
     }
 
     /// A state after its stabilisation, or with its joints closed.
@@ -34,8 +30,8 @@ where
         match self.stabilisation {
             Some(stabilisation) => self.stabilised(stabilisation, time, reached),
             None => {
-                let constants = self.dynamics.constants();
-                Ok(Branching::closed::<M>(constants, time, &reached))
+                let constants = self.march.equations().constants();
+                Ok(closed::<S, M>(constants, time, &reached))
             }
         }
     }
@@ -48,7 +44,7 @@ where
         time: S,
         reached: M::State<S>,
     ) -> Result<M::State<S>, Fault> {
-        let constants = self.dynamics.constants();
+        let constants = self.march.equations().constants();
         let mut state = reached;
         let residual = match stabilisation.stabilise(constants, time, &mut state) {
             Ok(residual) => residual,

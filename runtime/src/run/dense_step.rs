@@ -10,8 +10,8 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
-use crate::run::followed::bodies_by_halves;
 use crate::run::stepper::{Stepper, Steps};
+use crate::stepping::followed::bodies_by_halves;
 
 /// A step that was taken by [`Stepper::step_dense`], for [`Stepper::within`].
 pub struct DenseStep<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> {

@@ -2,44 +2,26 @@
 
 use crate::constraints::row_units::characteristic_length;
 use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::integrate::Method;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::fastest;
 use crate::run::passages::LENGTH;
 use crate::run::segments::Run;
 
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// A fault with what the run knows of its cause.
     #[cold]
-    pub(super) fn explained<I: Method<S>>(
-        &self,
-        integrator: &I,
-        fault: Fault,
-        last_good: (S, M::State<S>),
-    ) -> Fault {
+    pub(super) fn explained(&self, fault: Fault, last_good: (S, M::State<S>)) -> Fault {
         /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5
         /// up to about this over `a`, and grows for some time from somewhat less on.
         const STABLE: f64 = 2.0;
         /// Radians in a step that no motion has, and lengths of a mechanism that no joint is open
         /// by.
         const BEYOND: f64 = 1e6;
+        let equations = self.march.equations();
         let not_finite = matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite);
         if not_finite
-            && let (Some(step), Some(rate)) = (
-                integrator.fixed_step(),
-                self.dynamics.formulation().decay_rate(),
-            )
+            && let (Some(step), Some(rate)) = (self.settings.fixed_step, equations.decay_rate())
             && step * rate > S::constant(STABLE)
         {
             return Fault::StepTooLong {
@@ -47,7 +29,7 @@ where
                 rate: rate.to_f64(),
             };
         }
-        let (constants, state) = (self.dynamics.constants(), &last_good.1);
+        let (constants, state) = (equations.constants(), &last_good.1);
         // A step in which something turns by radians, or moves by lengths of the mechanism, is too
         // long whatever came of it: pivots of such numbers may vanish, too.
         let turned = match fault {
@@ -68,15 +50,14 @@ where
         };
         let rate = fastest::<S, M>(constants, state);
         let rate = self.gone.map_or(rate, |gone| rate.max(gone));
-        if let (Some(turned), Some(step)) = (turned, integrator.fixed_step())
+        if let (Some(turned), Some(step)) = (turned, self.settings.fixed_step)
             && exceeds(step * rate, turned)
         {
             return Fault::Unstable {
                 step: step.to_f64(),
             };
         }
-        let absolute = integrator.tolerance().map(|tolerance| tolerance.absolute);
-        self.dynamics.explained(fault, absolute, last_good)
+        equations.explained(fault, self.settings.absolute, last_good)
     }
 }
 

@@ -28,19 +28,16 @@
 //! `Recorder` builds a line in memory and writes it by one call, so that only the last line can be
 //! torn. After a failed write it refuses further lines. It knows a mechanism by its report alone.
 
-pub(crate) mod branching;
 #[cfg(feature = "std")]
 pub(crate) mod checkpoint;
 #[cfg(feature = "recorder")]
 mod columns;
 pub(crate) mod companion;
 mod corrected;
-mod deferred;
 pub(crate) mod dense_step;
 pub(crate) mod direct;
 pub(crate) mod events;
 mod explained;
-pub(crate) mod followed;
 pub(crate) mod interactions;
 pub(crate) mod kinematics;
 pub(crate) mod output;
@@ -72,6 +69,7 @@ pub use crate::nonsmooth::interaction::Interaction;
 pub use crate::nonsmooth::place::Plane;
 pub use crate::nonsmooth::quantity::JointQuantity;
 pub use crate::nonsmooth::status::{Impact, InteractionMode};
+pub use crate::stepping::watch::Crossing;
 #[cfg(feature = "std")]
 pub use checkpoint::Checkpoint;
 pub use companion::{BodyError, Verification};
@@ -79,7 +77,6 @@ pub use dense_step::DenseStep;
 pub use events::context::Event;
 pub use events::hybrid::{Handling, HybridSimulation, Simulated, With};
 pub use events::list::{Happenings, NothingHappens};
-pub use events::watch::Crossing;
 pub use interactions::WithInteractions;
 pub use kinematics::KinematicResult;
 pub use output::{IntoFlow, Reporting};

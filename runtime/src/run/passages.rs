@@ -2,33 +2,18 @@
 
 use crate::constraints::extent::largest;
 use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::integrate::Integration;
 use crate::math::scalar::Real;
 use crate::math::vec3::minus;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::run::passing::{ACROSS, CLOSE, dot, judged};
 use crate::run::segments::Run;
 use crate::state::vector::{Array, StateParts as _, Vector as _};
 
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Whether the last step is taken, which began at a time where the bodies stood near by: no
     /// direction of a force has turned round in it.
     #[inline]
-    pub(super) fn is_taken<K: Integration<S, C::State<S>>>(
-        &mut self,
-        integration: &K,
-        start: (S, &M::State<S>),
-    ) -> Result<bool, Fault> {
+    pub(super) fn is_taken(&mut self, start: (S, &M::State<S>), end: S) -> Result<bool, Fault> {
         if M::SEPARATIONS.is_empty() {
             return Ok(true);
         }
@@ -36,19 +21,18 @@ where
             self.passing.skipped -= 1;
             return Ok(true);
         }
-        self.look_for_passages(integration, start)
+        self.look_for_passages(start, end)
     }
 
     #[inline(never)]
-    fn look_for_passages<K: Integration<S, C::State<S>>>(
+    fn look_for_passages(
         &mut self,
-        integration: &K,
         (start, near): (S, &M::State<S>),
+        end: S,
     ) -> Result<bool, Fault> {
-        let end = integration.time();
-        let bodies = self.dynamics.bodies_near(integration.state(), near);
+        let bodies = self.march.bodies_near(near);
         let ends = [(start, near), (end, &bodies)];
-        let mut judged = judged::<S, M>(self.dynamics.constants(), ends, &self.passing);
+        let mut judged = judged::<S, M>(self.march.equations().constants(), ends, &self.passing);
         if let (true, Some(monitor)) = (judged.passes, &mut self.monitor) {
             monitor.passes(judged.turns.is_some());
         }
@@ -71,7 +55,7 @@ where
     /// The place of a length that may have passed through zero twice in a step: it ends far, by the
     /// distance there, from where the velocities at the start lead. Asked after a first passage.
     fn misses(&self, [(start, near), (end, bodies)]: [(S, &M::State<S>); 2]) -> Option<usize> {
-        let constants = self.dynamics.constants();
+        let constants = self.march.equations().constants();
         let rates = M::coordinate_rates(constants, near);
         let rates = M::State::from_parts(rates, Array::zeros());
         let ahead = near.plus([(end - start, &rates)]);
@@ -91,7 +75,7 @@ where
 
     /// How large places are, of bodies here and where they were described.
     fn places(&self, bodies: &M::State<S>) -> S {
-        let described = M::initial_state(self.dynamics.constants());
+        let described = M::initial_state(self.march.equations().constants());
         let all = [bodies, &described].map(|state| largest(state.coordinates().as_slice()));
         all[0].max(all[1])
     }
@@ -105,7 +89,7 @@ where
         if M::SEPARATIONS.is_empty() {
             return false;
         }
-        let constants = self.dynamics.constants();
+        let constants = self.march.equations().constants();
         let rates = M::coordinate_rates(constants, state);
         let rates = M::State::from_parts(rates, Array::zeros());
         let end = time + S::constant(2.0) * step;
@@ -140,7 +124,7 @@ where
         self.passing.next = self.passing.limit.take();
         self.passing.ends_with_a_jump();
         let end = until.min(*time + step);
-        let rates = M::coordinate_rates(self.dynamics.constants(), state);
+        let rates = M::coordinate_rates(self.march.equations().constants(), state);
         let rates = M::State::from_parts(rates, Array::zeros());
         *state = state.plus([(end - *time, &rates)]);
         *time = end;
@@ -156,7 +140,7 @@ where
         if M::SEPARATIONS.is_empty() {
             return;
         }
-        let constants = self.dynamics.constants();
+        let constants = self.march.equations().constants();
         let mut is_zero = false;
         let ends = [(*time, &*state); 2];
         M::separations(constants, ends, &mut |_, [at, _]| {

@@ -10,7 +10,6 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::{Monitor, Seen};
 use crate::run::output::Reporting;
-use crate::state::vector::{MovingState, Vector};
 
 /// What a run has counted so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,17 +39,6 @@ impl<S: Real> Numbers<'_, S> {
         read(&mut Memory::new(&mut reader));
         reader.is_done()
     }
-}
-
-/// A state or a slope of its elements, if there are as many.
-pub(crate) fn vector<S: Real, X: MovingState<S> + Vector<S>>(numbers: &[S]) -> Option<X> {
-    let mut vector = X::zeros();
-    let of = Numbers {
-        numbers,
-        counts: &[],
-    };
-    of.read(|memory| memory.vector(&mut vector))
-        .then_some(vector)
 }
 
 /// The integration that was under way.

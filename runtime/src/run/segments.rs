@@ -3,20 +3,14 @@
 
 use core::ops::ControlFlow;
 
-use crate::dynamics::Dynamics;
 use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::integrate::{Advance, Counts, Integration as _, Integrator, System as _, TimeSpan};
+use crate::integrate::{Counts, TimeSpan};
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
+use crate::measure::view::View;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::Monitor;
-use crate::run::branching::Branching;
 use crate::run::companion::Companion;
-use crate::run::deferred::Deferred;
 use crate::run::events::list::Hybrid;
-use crate::run::followed::bodies_within;
 use crate::run::output::Schedule;
 use crate::run::passing::Passing;
 use crate::run::past::Past;
@@ -24,11 +18,13 @@ use crate::run::post_step::PostStabilisation;
 use crate::run::report::RunReport;
 use crate::run::sample::Sample;
 use crate::run::within::judge;
+use crate::stepping::marching::{Marching, Settings};
 
 /// A run under way.
-pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> {
-    /// What the integrator moves.
-    pub(crate) dynamics: Dynamics<S, M, F, A, C>,
+pub(crate) struct Run<'r, S: Real, M: Mechanism> {
+    /// What is integrated.
+    pub(crate) march: &'r mut (dyn Marching<S, M> + 'r),
+    pub(crate) settings: Settings<S>,
     /// What is done to states after steps and before reports.
     pub(crate) stabilisation: Option<&'r dyn PostStabilisation<S, M>>,
     pub(crate) schedule: Schedule<S>,
@@ -36,6 +32,8 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
     /// description.
     pub(crate) breaks: &'r [S],
     pub(crate) monitor: Option<Monitor<S, M>>,
+    /// A second run beside it.
+    pub(crate) companion: Option<Companion<'r, S, M>>,
     pub(crate) log: Log<'r, S, M>,
     /// Events and controllers.
     pub(crate) hybrid: Option<Hybrid<'r, S, M>>,
@@ -44,17 +42,15 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordi
     /// Steps so far.
     pub(crate) steps: usize,
     pub(crate) counts: Counts,
-    /// A state that was reached since the bodies of the last good one.
-    pub(crate) deferred: Deferred<C::State<S>>,
     /// How fast (rad/s) a state moved that no correction could bring back.
     pub(crate) gone: Option<S>,
-    /// Where joints are closed without a stabilisation.
-    pub(crate) branching: Branching<S>,
 }
 
 /// A step that was taken, and looked into for the monitor. In a place of its own over all steps, as
 /// it is long and mostly empty.
 pub(super) struct Taken<S: Real, M: Mechanism> {
+    /// When it ends (s).
+    pub(super) end: S,
     /// The first event within it.
     pub(super) event: Option<(S, M::State<S>)>,
     /// Where a rule of higher order would have led, where that is asked.
@@ -65,8 +61,9 @@ pub(super) struct Taken<S: Real, M: Mechanism> {
 }
 
 impl<S: Real, M: Mechanism> Taken<S, M> {
-    const fn none() -> Self {
+    pub(super) fn none() -> Self {
         Self {
+            end: S::zero(),
             event: None,
             better: None,
             evaluations: 0,
@@ -81,14 +78,13 @@ const ASKED_TWICE: usize = 1024;
 
 /// An integration that was begun.
 #[derive(Clone, Copy)]
-pub(crate) struct Begun<S, X> {
-    /// When (s), and in which state.
+pub(crate) struct Begun<S> {
+    /// When (s).
     #[cfg_attr(
         not(feature = "std"),
         expect(dead_code, reason = "checkpoints and trajectories need a heap")
     )]
     pub(crate) start: S,
-    pub(crate) state: X,
     /// What interpolants have evaluated for the monitor, which is no part of the run.
     pub(crate) of_monitor: usize,
 }
@@ -121,19 +117,10 @@ impl<'r, S: Real, M: Mechanism> Log<'r, S, M> {
     }
 }
 
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Goes from a state to the end; keeps the last good state.
-    pub(crate) fn go<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
+    pub(crate) fn go(
         mut self,
-        integrator: &I,
-        mut companion: Option<Companion<S, M, F, A, C, I>>,
         (start, end): (S, S),
         last_good: &mut (S, M::State<S>),
         mut past: Option<&Past<'_, S, M>>,
@@ -142,7 +129,7 @@ where
         self.leave_zeros(last_good, end - start);
         if let Some(past) = past {
             self.take_past(past)
-                .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+                .map_err(|fault| self.explained(fault, *last_good))?;
             from = match &past.segment {
                 Some(segment) => segment.start,
                 None => {
@@ -151,7 +138,7 @@ where
                 }
             };
         } else {
-            self.begin(integrator, &mut companion, (start, end), last_good)?;
+            self.begin((start, end), last_good)?;
         }
         while from < end && self.log.flow.is_continue() {
             let mut until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
@@ -160,7 +147,7 @@ where
             }
             until = self
                 .next_switch(from, until)
-                .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+                .map_err(|fault| self.explained(fault, *last_good))?;
             let is_between = past.is_none_or(|past| past.segment.is_none());
             if is_between {
                 self.passing.begin();
@@ -174,16 +161,16 @@ where
                 end: until,
                 first_output: self.schedule.first(from).min(until - from),
             };
-            if let Some(companion) = &mut companion {
+            if let Some(companion) = &mut self.companion {
                 companion.restart(&span, self.stabilisation);
             }
             let reached = if is_between && self.goes_across(last_good, until)? {
                 if self.schedule.at(last_good.0, self.log.unseen) {
-                    self.show(last_good.0, &last_good.1, &mut companion);
+                    self.show(last_good.0, &last_good.1);
                 }
                 Ok(())
             } else {
-                self.segment(integrator, &mut companion, span, last_good, past.take())
+                self.segment(span, last_good, past.take())
             };
             self.convert(last_good);
             if reached.is_ok() && self.passing.has_refused(last_good.0) {
@@ -192,200 +179,197 @@ where
             }
             self.leave_zeros(last_good, until - from);
             reached
-                .and_then(|()| self.happen(last_good, &mut companion))
-                .and_then(|()| self.keep_between(integrator, last_good, end))
-                .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+                .and_then(|()| self.happen(last_good))
+                .and_then(|()| self.keep_between(last_good, end))
+                .map_err(|fault| self.explained(fault, *last_good))?;
             from = last_good.0;
         }
-        let mut report = self.report(*last_good);
-        report.verification = companion.map(Companion::found);
-        Ok(report)
+        Ok(self.report(*last_good))
     }
 
     /// Hands over a checkpoint between two integrations, or at the end of the run.
     #[cfg(feature = "std")]
-    fn keep_between<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
-        &mut self,
-        integrator: &I,
-        last_good: &(S, M::State<S>),
-        end: S,
-    ) -> Result<(), Fault> {
+    fn keep_between(&mut self, last_good: &(S, M::State<S>), end: S) -> Result<(), Fault> {
         let is_due = last_good.0 >= end || self.keeps_now();
         if self.keeps() && is_due && self.log.flow.is_continue() {
-            self.keep::<I, I::Integration>(integrator, None, last_good)?;
+            self.keep(None, last_good)?;
         }
         Ok(())
     }
 
     #[cfg(not(feature = "std"))]
     #[inline(always)]
-    fn keep_between<I>(&self, _: &I, _: &(S, M::State<S>), _: S) -> Result<(), Fault> {
+    fn keep_between(&self, _: &(S, M::State<S>), _: S) -> Result<(), Fault> {
         Ok(())
     }
 
     /// Begins at the start: evaluates, calls controllers, shows the state.
-    fn begin<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
+    fn begin(
         &mut self,
-        integrator: &I,
-        companion: &mut Option<Companion<S, M, F, A, C, I>>,
         (start, end): (S, S),
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
         if start == end {
-            self.evaluate(start, &last_good.1)
-                .map_err(|fault| self.explained(integrator, fault, *last_good))?;
+            let evaluated = self
+                .march
+                .equations_mut()
+                .evaluate_once(start, &last_good.1);
+            evaluated.map_err(|fault| self.explained(fault, *last_good))?;
+            self.counts.evaluations += 1;
         }
         self.begin_events(last_good)?;
         #[cfg(feature = "std")]
         self.begin_records(start, true);
         if self.log.flow.is_continue() {
-            self.show(start, &last_good.1, companion);
+            self.show(start, &last_good.1);
         }
         if let Some(monitor) = self.monitor.as_mut().filter(|_| start < end) {
-            self.dynamics.begin(monitor, start, &last_good.1);
+            self.march.equations().begin(monitor, start, &last_good.1);
         }
         if start < end {
             let start = (start, &last_good.1);
-            self.dynamics.ask_twice(start, (end, start.1))?;
+            self.march.equations().ask_twice(start, (end, start.1))?;
         }
-        Ok(())
-    }
-
-    /// Evaluates the rates once: a run of no length is refused where any other would be.
-    fn evaluate(&mut self, time: S, state: &M::State<S>) -> Result<(), Fault> {
-        let state = self.dynamics.nearest(state);
-        self.dynamics.rates(time, &state)?;
-        self.counts.evaluations += 1;
         Ok(())
     }
 
     /// Integrates over an interval without breaks, up to the first event: step by step, each is
     /// taken, then reports within it are made, then its end is observed.
-    fn segment<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
+    fn segment(
         &mut self,
-        integrator: &I,
-        companion: &mut Option<Companion<S, M, F, A, C, I>>,
         span: TimeSpan<S>,
         last_good: &mut (S, M::State<S>),
         past: Option<&Past<'_, S, M>>,
     ) -> Result<(), Fault> {
-        let under_way = past.and_then(|past| Some((past, past.segment?)));
-        let mut begun = match &under_way {
-            Some((_, segment)) => Self::begun(segment)?,
-            None => Begun {
-                start: span.start,
-                state: self.dynamics.nearest(&last_good.1),
-                of_monitor: 0,
-            },
-        };
-        let mut integration = integrator.start(&mut self.dynamics, span, begun.state)?;
-        if let Some((past, segment)) = under_way {
-            self.go_on(&mut integration, segment.memory, past)?;
-        } else if let (Some(monitor), false) = (&mut self.monitor, self.passing.goes_on(span.start))
-        {
-            monitor.restart();
-            let state = integration.state();
-            self.dynamics
-                .monitor(monitor, span.start, state, &last_good.1, None);
-        }
-        let budget = integrator.budget().unwrap_or(usize::MAX);
+        let mut begun = self.start(span, last_good, past)?;
+        let budget = self.settings.budget;
         let budget = budget.saturating_sub(self.counts.evaluations);
         let mut taken = Taken::none();
-        while integration.time() < span.end {
+        taken.end = self.march.time();
+        while taken.end < span.end {
             let left = span.end - last_good.0;
-            let longest = integrator.fixed_step().map_or(left, |step| step.min(left));
-            if !self.take(&mut integration, last_good, longest, &mut taken)? {
+            let longest = self.settings.fixed_step.map_or(left, |step| step.min(left));
+            if !self.take(last_good, longest, &mut taken)? {
                 break;
             }
             let event = taken.event.as_ref();
-            let reached = event.map_or(integration.time(), |&(time, _)| time);
+            let reached = event.map_or(taken.end, |&(time, _)| time);
             #[cfg(feature = "std")]
             let is_recorded = {
                 let at_end = event.map(|(_, bodies)| bodies);
-                self.record_within(&mut integration, (reached, at_end), last_good)?
+                self.record_within((reached, at_end), last_good)?
             };
             #[cfg(not(feature = "std"))]
             let is_recorded = false;
-            let has_reported =
-                self.report_within(&mut integration, reached, companion, last_good)?;
+            let has_reported = self.report_within(reached, last_good)?;
             if self.log.flow.is_break() {
                 break;
             }
-            let is_shared = if has_reported || is_recorded {
-                // With reports, which find what interpolation needs where a look has evaluated it,
-                // or evaluate for each time anew.
-                integration.counts().evaluations == taken.evaluations
-            } else {
-                // Or as the slope at the start of the next step.
-                taken.looks <= 1 && !self.corrects() && !A::INTERACTS
-            };
-            if !is_shared {
+            if taken.looks > 0 && !self.shares_looks(&taken, has_reported || is_recorded) {
                 begun.of_monitor = begun.of_monitor.saturating_add(taken.looks);
             }
             if let Some(&(time, bodies)) = event {
-                self.observe_event(integration.estimate(), (time, bodies), last_good)?;
+                self.observe_event((time, bodies), last_good)?;
             } else {
-                self.observe(&mut integration, taken.better.as_ref(), last_good)?;
+                self.observe(taken.end, taken.better.as_ref(), last_good)?;
             }
             #[cfg(feature = "std")]
             self.record_end(last_good);
             let is_event = event.is_some();
             if !is_event && self.schedule.at(last_good.0, self.log.unseen) {
                 self.convert(last_good);
-                self.show(last_good.0, &last_good.1, companion);
+                self.show(last_good.0, &last_good.1);
                 if self.log.flow.is_break() {
                     break;
                 }
             }
-            let counts = integration.counts().without(begun.of_monitor);
-            let evaluations = counts.evaluations;
-            if evaluations >= budget && last_good.0 < span.end {
-                let evaluations = self.counts.evaluations.saturating_add(evaluations);
-                return Err(Fault::Budget {
-                    evaluations,
-                    joint: None,
-                });
+            if budget < usize::MAX && last_good.0 < span.end {
+                self.keep_to(budget, &begun)?;
             }
             if is_event {
                 break;
             }
             #[cfg(feature = "std")]
             if self.keeps_now() && last_good.0 < span.end {
-                self.keep(integrator, Some((&mut integration, &begun)), last_good)?;
+                self.keep(Some(&begun), last_good)?;
                 if self.log.flow.is_break() {
                     break;
                 }
             }
         }
-        self.counts = (self.counts).plus(integration.counts().without(begun.of_monitor));
+        let counts = self.march.counts().without(begun.of_monitor);
+        self.counts = self.counts.plus(counts);
         Ok(())
+    }
+
+    /// Begins an integration, or goes on with the one that was under way.
+    fn start(
+        &mut self,
+        span: TimeSpan<S>,
+        last_good: &(S, M::State<S>),
+        past: Option<&Past<'_, S, M>>,
+    ) -> Result<Begun<S>, Fault> {
+        if let Some((past, segment)) = past.and_then(|past| Some((past, past.segment?))) {
+            self.go_on(span, &segment, past)?;
+            return Ok(Begun {
+                start: segment.start,
+                of_monitor: segment.of_monitor,
+            });
+        }
+        self.march.start(span, &last_good.1)?;
+        if let (Some(monitor), false) = (&mut self.monitor, self.passing.goes_on(span.start)) {
+            monitor.restart();
+            self.march.monitor_end(monitor, &last_good.1, None);
+        }
+        Ok(Begun {
+            start: span.start,
+            of_monitor: 0,
+        })
+    }
+
+    /// Whether what looks into a step have evaluated is of use to the run.
+    fn shares_looks(&self, taken: &Taken<S, M>, was_interpolated: bool) -> bool {
+        if was_interpolated {
+            // With reports, which find what interpolation needs where a look has evaluated it, or
+            // evaluate for each time anew.
+            self.march.counts().evaluations == taken.evaluations
+        } else {
+            // Or as the slope at the start of the next step.
+            taken.looks <= 1 && !self.corrects() && !self.settings.interacts
+        }
+    }
+
+    /// Ends a run that has evaluated more often than it may.
+    fn keep_to(&self, budget: usize, begun: &Begun<S>) -> Result<(), Fault> {
+        let evaluations = self.march.counts().without(begun.of_monitor).evaluations;
+        if evaluations < budget {
+            return Ok(());
+        }
+        Err(Fault::Budget {
+            evaluations: self.counts.evaluations.saturating_add(evaluations),
+            joint: None,
+        })
     }
 
     /// Shows the states at reporting times within the last step up to a time, until the observer
     /// stops; whether there are any.
     #[inline]
-    fn report_within<I, K>(
+    fn report_within(
         &mut self,
-        integration: &mut K,
         reached: S,
-        companion: &mut Option<Companion<S, M, F, A, C, I>>,
         last_good: &mut (S, M::State<S>),
-    ) -> Result<bool, Fault>
-    where
-        I: Integrator<S, Dynamics<S, M, F, A, C>>,
-        K: Advance<S, Dynamics<S, M, F, A, C>>,
-    {
+    ) -> Result<bool, Fault> {
         let mut start = None;
         while let Some(time) = self.schedule.within(reached) {
-            start.get_or_insert_with(|| (self.dynamics.seen(), *last_good));
-            let near = (last_good.0 - self.deferred.elapsed(), &last_good.1);
-            let mut state = bodies_within(&mut self.dynamics, integration, near, time)?;
+            start.get_or_insert_with(|| (self.march.equations().seen(), *last_good));
+            let near = (last_good.0 - self.march.deferred_since(), &last_good.1);
+            let mut state = self.march.within(near, time)?;
             if let Some(stabilisation) = self.stabilisation {
                 state = self.stabilised(stabilisation, time, state)?;
             }
             *last_good = (time, state);
-            self.deferred.clear();
-            self.show(time, &last_good.1, companion);
+            self.march.forget_deferred();
+            self.show(time, &last_good.1);
             if self.log.flow.is_break() {
                 break;
             }
@@ -394,10 +378,10 @@ where
             return Ok(false);
         };
         // What output within the step evaluates is not what the monitor is shown, which is its end.
-        self.dynamics.recall(seen);
+        self.march.equations_mut().recall(seen);
         // The monitor is not shown this step any more: the one before it was the last.
         if let Some(monitor) = self.monitor.as_mut().filter(|_| self.log.flow.is_break()) {
-            monitor.end_of_steps(self.dynamics.constants(), time, &state);
+            monitor.end_of_steps(self.march.equations().constants(), time, &state);
         }
         Ok(true)
     }
@@ -405,52 +389,48 @@ where
     /// Corrects the end of the last step, and shows it to the monitor, with where a rule of higher
     /// order would have led.
     #[inline]
-    fn observe<K: Advance<S, Dynamics<S, M, F, A, C>>>(
+    fn observe(
         &mut self,
-        integration: &mut K,
+        time: S,
         better: Option<&M::State<S>>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
-        let time = integration.time();
-        let may_defer = self.may_defer() && !self.branching.is_near();
-        if may_defer && self.deferred.defer(integration.state(), time - last_good.0) {
+        if self.may_defer() && self.march.defers(time - last_good.0) {
             last_good.0 = time;
             self.steps = self.steps.saturating_add(1);
             self.log.unseen += 1;
             return Ok(());
         }
-        let near = &last_good.1;
-        let mut state = self.dynamics.bodies_counted(integration.state(), near);
+        let mut state = self.march.bodies(&last_good.1);
         if self.corrects() {
             state = self.corrected(time, state)?;
-            let state = self.dynamics.nearest_to(&state, integration.state());
-            integration.replace(state);
+            self.march.replace(&state);
         }
-        if A::INTERACTS
-            && let Some(held) = self.dynamics.held(time, integration.state())?
-        {
-            state = self.dynamics.bodies_near(&held, &state);
-            integration.replace(held);
+        if self.settings.interacts {
+            self.march.hold_modes(&mut state)?;
         }
-        if let (Some(monitor), Some(better)) = (&mut self.monitor, better) {
-            judge(monitor, &self.dynamics, (time, &state), better);
+        if let Some(monitor) = &mut self.monitor {
+            if let Some(better) = better {
+                judge(monitor, self.march.equations(), (time, &state), better);
+            }
+            let estimate = self.march.estimate();
+            self.march.monitor_end(monitor, &state, estimate);
         }
-        let estimate = integration.estimate();
-        self.accept((time, integration.state()), state, estimate, last_good)
+        self.accept(time, state, last_good)
     }
 
     /// Whether bodies are of no use before somebody looks: nothing reads the end of each step.
     #[inline]
     fn may_defer(&self) -> bool {
         let reads = self.monitor.is_some() || self.stabilisation.is_some() || self.hybrid.is_some();
-        C::IS_RELATIVE && !A::PRESENT && M::SEPARATIONS.is_empty() && !reads
+        self.settings.may_defer && M::SEPARATIONS.is_empty() && !reads
     }
 
     /// Converts the last good state to bodies, if that was deferred.
     #[inline]
     pub(super) fn convert(&mut self, last_good: &mut (S, M::State<S>)) {
-        if let Some(state) = self.deferred.take() {
-            last_good.1 = self.dynamics.bodies_counted(&state, &last_good.1);
+        if self.settings.may_defer {
+            self.march.convert(&mut last_good.1);
         }
     }
 
@@ -458,7 +438,6 @@ where
     #[inline(never)]
     fn observe_event(
         &mut self,
-        estimate: Option<S>,
         (time, mut bodies): (S, M::State<S>),
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
@@ -467,76 +446,72 @@ where
             bodies = self.corrected(time, bodies)?;
         }
         if self.monitor.is_some() {
-            self.dynamics.see_pivot(time, &bodies);
+            self.march.equations_mut().see_pivot(time, &bodies);
         }
         // A mode may end where the step began: no step to look at.
-        if A::INTERACTS && time <= last_good.0 {
+        if self.settings.interacts && time <= last_good.0 {
             *last_good = (time, bodies);
             self.log.unseen += 1;
             return Ok(());
         }
-        let state = self.dynamics.nearest(&bodies);
-        self.accept((time, &state), bodies, estimate, last_good)
+        if let Some(monitor) = &mut self.monitor {
+            let estimate = self.march.estimate();
+            self.march.monitor_event(monitor, (time, &bodies), estimate);
+        }
+        self.accept(time, bodies, last_good)
     }
 
     /// Takes a state, and the bodies in it, as the last good one.
     #[inline]
     fn accept(
         &mut self,
-        (time, of_integration): (S, &C::State<S>),
+        time: S,
         state: M::State<S>,
-        estimate: Option<S>,
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
         if let Some(monitor) = &mut self.monitor {
-            self.dynamics
-                .monitor(monitor, time, of_integration, &state, estimate);
-            let unconverged = self.dynamics.iterations().unconverged;
+            let unconverged = self.march.equations().iterations().unconverged;
             monitor.accept_unconverged_evaluations(unconverged, time);
         }
         self.steps = self.steps.saturating_add(1);
         if self.steps.is_power_of_two() || self.steps.is_multiple_of(ASKED_TWICE) {
             let before = (last_good.0, &last_good.1);
-            self.dynamics.ask_twice((time, &state), before)?;
+            self.march.equations().ask_twice((time, &state), before)?;
         }
         *last_good = (time, state);
         self.log.unseen += 1;
         Ok(())
     }
 
-    pub(crate) fn show<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
-        &mut self,
-        time: S,
-        state: &M::State<S>,
-        companion: &mut Option<Companion<S, M, F, A, C, I>>,
-    ) {
-        let beside = companion.as_mut();
+    pub(crate) fn show(&mut self, time: S, state: &M::State<S>) {
+        let beside = self.companion.as_mut();
         let beside =
             beside.and_then(|companion| companion.compare(time, state, self.stabilisation));
-        let dynamics = &self.dynamics;
-        let view = dynamics.view(time, state);
+        let equations = self.march.equations();
+        let view = View::new(equations.constants(), time, state);
         let log = &mut self.log;
         log.worst_violation = log.worst_violation.max(view.violation());
-        log.flow = (log.observe)(&Sample::new(view, dynamics).beside(beside));
+        log.flow = (log.observe)(&Sample::new(view, equations).beside(beside));
         log.unseen = 0;
     }
 
     /// The last state is one that was shown.
     fn report(mut self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
+        let equations = self.march.equations();
         if let Some(monitor) = &mut self.monitor {
-            self.dynamics.name_smallest_pivot(monitor);
-            monitor.end(self.dynamics.constants(), time, &state);
+            equations.name_smallest_pivot(monitor);
+            monitor.end(equations.constants(), time, &state);
         }
         RunReport {
             evaluations: self.counts.evaluations,
             accepted: self.counts.accepted,
             rejected: self.counts.rejected,
             worst_violation: self.log.worst_violation,
-            iterations: self.dynamics.iterations(),
+            iterations: equations.iterations(),
             time,
             state,
             stopped: self.log.flow.is_break(),
-            verification: None,
+            verification: self.companion.map(Companion::found),
             monitor: self.monitor,
         }
     }

@@ -21,9 +21,7 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::mechanism::limits::Several as _;
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Monitor;
-use crate::run::branching::Branching;
 use crate::run::companion::Companion;
-use crate::run::deferred::Deferred;
 use crate::run::events::list::{Happenings, Hybrid, NothingHappens};
 use crate::run::events::switching::Switching;
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
@@ -35,6 +33,8 @@ use crate::run::resumed::take_values;
 use crate::run::sample::Sample;
 use crate::run::segments::{Log, Observer, Run};
 use crate::state::vector::{Array, StateParts};
+use crate::stepping::march::March;
+use crate::stepping::marching::Marching as _;
 
 /// A mechanism, a formulation and an integrator, ready to run.
 ///
@@ -439,11 +439,8 @@ where
         let described = M::initial_state(dynamics.constants());
         let length = characteristic_length::<S, M>(dynamics.constants(), &described);
         let integrator = &self.integrator.for_length(length);
-        let is_controlled = integrator.fixed_step().is_none();
-        dynamics.begin_near(is_controlled);
         if let Some(past) = past {
             take_values(&mut dynamics, past)?;
-            dynamics.renew_limits()?;
         }
         let constants = *dynamics.constants();
         let described = || M::initial_state(&constants);
@@ -486,21 +483,26 @@ where
                 .over(integrator)
                 .decaying(self.formulation.decay_rate())
         });
-        let companion = if self.is_verified {
-            let integrator = integrator.companion(end - start);
-            let formulation = self.formulation.companion();
-            let dynamics = Dynamics::of_parameters(given, formulation)?;
-            let forces = Heeding::new(&self.forces, &given);
-            let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
-            dynamics.begin_near(is_controlled);
-            integrator.map(|integrator| Companion::new(dynamics, integrator, (start, &state)))
-        } else {
-            None
+        let beside = integrator.companion(end - start);
+        let mut beside = match beside.filter(|_| self.is_verified) {
+            Some(integrator) => {
+                let formulation = self.formulation.companion();
+                let dynamics = Dynamics::of_parameters(given, formulation)?;
+                let forces = Heeding::new(&self.forces, &given);
+                let dynamics = dynamics.with_forces(forces).coordinates::<C>();
+                Some(March::new(dynamics, integrator))
+            }
+            None => None,
         };
+        let mut march = March::new(dynamics, *integrator);
         let projection = self.projection.as_ref();
         let projection = projection.map(|projection| projection as &dyn PostStabilisation<S, M>);
         let run = Run {
-            dynamics,
+            settings: march.settings(),
+            march: &mut march,
+            companion: beside
+                .as_mut()
+                .map(|march| Companion::new(march, (start, &state))),
             stabilisation: self.stabilisation.or(projection),
             schedule,
             breaks: self.breaks,
@@ -510,11 +512,9 @@ where
             passing: Passing::by(integrator),
             steps: 0,
             counts: Counts::default(),
-            deferred: Deferred::new(),
             gone: None,
-            branching: Branching::of(is_controlled),
         };
-        run.go(integrator, companion, (start, end), last_good, past)
+        run.go((start, end), last_good, past)
     }
 
     /// The start of a run over an interval (s) from a state, assembled where that is asked.

@@ -1,81 +1,53 @@
 //! A step of a run: taken, its turns counted, and looked into for events and for the monitor.
 
-use crate::dynamics::Dynamics;
 use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::integrate::Advance;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::followed::bodies_within;
 use crate::run::segments::{Run, Taken};
-use crate::run::within::{better_end, look_within};
-use crate::state::vector::Vector as _;
+use crate::run::within::look_within;
 
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Takes a step, and looks into it for events and for the monitor. It is no longer than some
     /// seconds. False of one that must be shorter.
     #[inline]
-    pub(super) fn take<K: Advance<S, Dynamics<S, M, F, A, C>>>(
+    pub(super) fn take(
         &mut self,
-        integration: &mut K,
         last_good: &mut (S, M::State<S>),
         longest: S,
         taken: &mut Taken<S, M>,
     ) -> Result<bool, Fault> {
-        if let Err(fault) = integration.advance(&mut self.dynamics) {
-            let is_shortened = self.tries_again((last_good.0, &last_good.1), longest);
-            return if is_shortened { Ok(false) } else { Err(fault) };
-        }
-        if !self.is_taken(integration, (last_good.0, &last_good.1))? {
+        let advanced = match self.march.advance() {
+            Ok(advanced) => advanced,
+            Err(fault) => {
+                let is_shortened = self.tries_again((last_good.0, &last_good.1), longest);
+                return if is_shortened { Ok(false) } else { Err(fault) };
+            }
+        };
+        taken.end = advanced.end;
+        if !self.is_taken((last_good.0, &last_good.1), taken.end)? {
             return Ok(false);
         }
-        if !self.dynamics.knows_turns(integration.state()) {
-            self.recount(integration, last_good)?;
+        if !advanced.knows_turns {
+            self.convert(last_good);
+            self.march.recount((last_good.0, &last_good.1))?;
         }
-        if self.stabilisation.is_none() {
-            let (time, state) = (integration.time(), integration.state());
-            self.branching.step(&mut self.dynamics, time, state);
+        if self.settings.may_branch && self.stabilisation.is_none() {
+            self.march.look_for_branches();
         }
         let &mut (start, ref near) = last_good;
-        (taken.event, taken.better) = (None, None);
+        (taken.event, taken.better, taken.looks) = (None, None, 0);
         if self.looks_for_events() {
-            taken.event = self.event_within(integration, (start, near))?;
+            taken.event = self.event_within((start, near), taken.end)?;
         }
-        let before = integration.counts().evaluations;
         if let Some(monitor) = &mut self.monitor {
+            let before = self.march.counts().evaluations;
             if taken.event.is_none() && monitor.judges() {
-                taken.better = better_end(&mut self.dynamics, integration, near);
+                taken.better = self.march.better_end(near);
             }
-            let (dynamics, event) = (&mut self.dynamics, taken.event.as_ref());
-            look_within(monitor, dynamics, integration, near, event);
+            look_within(monitor, self.march, near, taken.end, taken.event.as_ref());
+            taken.evaluations = self.march.counts().evaluations;
+            taken.looks = taken.evaluations.saturating_sub(before);
         }
-        taken.evaluations = integration.counts().evaluations;
-        taken.looks = taken.evaluations.saturating_sub(before);
         Ok(true)
-    }
-
-    /// Counts the turns of a step that the integration has not counted, or of which it does not
-    /// know them.
-    #[cold]
-    #[inline(never)]
-    fn recount<K: Advance<S, Dynamics<S, M, F, A, C>>>(
-        &mut self,
-        integration: &mut K,
-        last_good: &mut (S, M::State<S>),
-    ) -> Result<(), Fault> {
-        self.convert(last_good);
-        let (near, end) = ((last_good.0, &last_good.1), integration.time());
-        let bodies = bodies_within(&mut self.dynamics, integration, near, end)?;
-        integration.recount(bodies.turns());
-        Ok(())
     }
 }

@@ -1,16 +1,13 @@
 //! What the ends of a step do not tell: singular configurations between them, and what a method of
 //! low order misses.
 
-use crate::dynamics::Dynamics;
+use crate::dynamics::equations::Equations;
 use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::integrate::Advance;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::monitor::{Asked, Monitor, Nearness};
+use crate::stepping::marching::Marching;
 
 /// How often a step is divided at the most.
 const FINEST: usize = 8;
@@ -22,45 +19,15 @@ const COARSEST: usize = 2;
 /// in half a step.
 const DIVISION: f64 = 0.44;
 
-/// Where a rule of higher order would have led in the last step of an integration. The bodies stood
-/// near by a moment ago.
-#[inline]
-pub(crate) fn better_end<S, M, F, A, C, K>(
-    dynamics: &mut Dynamics<S, M, F, A, C>,
-    integration: &K,
-    near: &M::State<S>,
-) -> Option<M::State<S>>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    K: Advance<S, Dynamics<S, M, F, A, C>>,
-{
-    let (seen, iterations) = (dynamics.seen(), dynamics.iterations());
-    // Where there is a fault the run will find it.
-    let better = integration.better_end(dynamics).ok().flatten();
-    dynamics.recall(seen);
-    dynamics.iterations = iterations;
-    better.map(|state| dynamics.bodies_near(&state, near))
-}
-
 /// Shows the monitor where a step has led to, and where a rule of higher order would have led.
-pub(crate) fn judge<S, M, F, A, C>(
+pub(crate) fn judge<S: Real, M: Mechanism>(
     monitor: &mut Monitor<S, M>,
-    dynamics: &Dynamics<S, M, F, A, C>,
+    equations: &dyn Equations<S, M>,
     (time, state): (S, &M::State<S>),
     better: &M::State<S>,
-) where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
-    let forces = dynamics.all_forces(time, &with_unit_orientations::<S, M>(state));
-    monitor.judge((dynamics.constants(), time), [state, better], &forces);
+) {
+    let forces = equations.all_forces(time, &with_unit_orientations::<S, M>(state));
+    monitor.judge((equations.constants(), time), [state, better], &forces);
 }
 
 /// Looks into the last step of an integration, or into what comes before an event within it, before
@@ -69,42 +36,31 @@ pub(crate) fn judge<S, M, F, A, C>(
 /// ago.
 ///
 /// By joints a step may be a fifth of a turn.
-pub(crate) fn look_within<S, M, F, A, C, K>(
+pub(crate) fn look_within<S: Real, M: Mechanism>(
     monitor: &mut Monitor<S, M>,
-    dynamics: &mut Dynamics<S, M, F, A, C>,
-    integration: &mut K,
+    march: &mut dyn Marching<S, M>,
     near: &M::State<S>,
+    step_end: S,
     event: Option<&(S, M::State<S>)>,
-) where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    K: Advance<S, Dynamics<S, M, F, A, C>>,
-{
-    let (start, step_end) = (monitor.time(), integration.time());
+) {
+    let start = monitor.time();
     let end = event.map_or(step_end, |&(time, _)| time);
     let asked = monitor.asks(end - start);
     if !(asked.pivot || asked.gradient) {
         return;
     }
-    let last = event.map_or_else(
-        || dynamics.bodies_near(integration.state(), near),
-        |&(_, bodies)| bodies,
-    );
+    let last = event.map_or_else(|| march.bodies_near(near), |&(_, bodies)| bodies);
     let rate = monitor.faster(&last);
     let first = monitor.last_nearness(asked);
-    let known = dynamics.pivot_seen().filter(|_| event.is_none());
-    let last = nearness(monitor, dynamics, (end, &last), asked, known);
+    let known = march.equations().pivot_seen().filter(|_| event.is_none());
+    let last = nearness(monitor, march.equations(), (end, &last), asked, known);
     if !monitor.may_pass(rate * (end - start), [first, last]) {
         return;
     }
-    let seen = dynamics.seen();
+    let seen = march.equations().seen();
     let mut step = Within {
         monitor,
-        dynamics,
-        integration,
+        march,
         near,
         rate,
         asked,
@@ -113,56 +69,39 @@ pub(crate) fn look_within<S, M, F, A, C, K>(
     if is_known {
         monitor.is_known_for(rate * (end - start), asked);
     }
-    dynamics.recall(seen);
+    march.equations_mut().recall(seen);
 }
 
 /// How near a state is to a singular configuration, with its pivot where that is known.
-fn nearness<S, M, F, A, C>(
+fn nearness<S: Real, M: Mechanism>(
     monitor: &mut Monitor<S, M>,
-    dynamics: &Dynamics<S, M, F, A, C>,
+    equations: &dyn Equations<S, M>,
     (time, bodies): (S, &M::State<S>),
     asked: Asked,
     known: Option<S>,
-) -> Nearness<S>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+) -> Nearness<S> {
     let pivot = if asked.pivot {
-        known.or_else(|| dynamics.pivot_within(time, bodies))
+        known.or_else(|| equations.pivot_within(time, bodies))
     } else {
         None
     };
-    monitor.nearness(dynamics.constants(), (time, bodies), pivot, asked)
+    monitor.nearness(equations.constants(), (time, bodies), pivot, asked)
 }
 
 /// A step that is looked into.
-struct Within<'w, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>, K> {
+struct Within<'w, S: Real, M: Mechanism> {
     monitor: &'w mut Monitor<S, M>,
-    dynamics: &'w mut Dynamics<S, M, F, A, C>,
-    integration: &'w mut K,
+    march: &'w mut (dyn Marching<S, M> + 'w),
     near: &'w M::State<S>,
     /// The largest rate of motion (rad/s) at its ends.
     rate: S,
     asked: Asked,
 }
 
-impl<S, M, F, A, C, K> Within<'_, S, M, F, A, C, K>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    K: Advance<S, Dynamics<S, M, F, A, C>>,
-{
+impl<S: Real, M: Mechanism> Within<'_, S, M> {
     fn bodies(&mut self, time: S) -> Result<M::State<S>, Fault> {
-        let state = self.integration.at(self.dynamics, time)?;
         // An interpolant between two orientations passes within the sphere of Euler parameters.
-        let bodies = self.dynamics.bodies_near(&state, self.near);
+        let bodies = self.march.at(time, self.near)?;
         Ok(with_unit_orientations::<S, M>(&bodies))
     }
 
@@ -171,14 +110,9 @@ where
     fn nearness(&mut self, time: S) -> Option<Nearness<S>> {
         match self.bodies(time) {
             Ok(state) => {
-                let (monitor, dynamics) = (&mut *self.monitor, &*self.dynamics);
-                Some(nearness(
-                    monitor,
-                    dynamics,
-                    (time, &state),
-                    self.asked,
-                    None,
-                ))
+                let equations = self.march.equations();
+                let at = (time, &state);
+                Some(nearness(self.monitor, equations, at, self.asked, None))
             }
             Err(Fault::Singular { .. }) => Some(Nearness::singular(self.asked)),
             Err(_) => None,

@@ -6,30 +6,13 @@ use std::string::ToString as _;
 use std::vec::Vec;
 
 use super::{Checkpoint, Kept, Segment};
-use crate::dynamics::Dynamics;
 use crate::error::{CheckpointFault, Fault};
-use crate::formulation::Formulation;
-use crate::integrate::{Integration, Integrator, System as _};
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::events::list::Hybrid;
 use crate::run::past::Progress;
 use crate::run::segments::{Begun, Run};
-use crate::state::vector::Vector;
 
-/// An integration under way, with its start; `None` between two of them.
-type UnderWay<'u, K, S, X> = Option<(&'u mut K, &'u Begun<S, X>)>;
-
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Whether checkpoints are kept.
     pub(crate) fn keeps(&self) -> bool {
         self.hybrid
@@ -43,23 +26,19 @@ where
         steps.is_some_and(|steps| self.steps.is_multiple_of(steps))
     }
 
-    /// Hands a checkpoint to those whose turn it is; at the end of the run to all.
-    pub(crate) fn keep<I, K>(
+    /// Hands a checkpoint to those whose turn it is; at the end of the run to all. `None` between
+    /// two integrations.
+    pub(crate) fn keep(
         &mut self,
-        integrator: &I,
-        under_way: UnderWay<'_, K, S, C::State<S>>,
+        under_way: Option<&Begun<S>>,
         &(time, ref state): &(S, M::State<S>),
-    ) -> Result<(), Fault>
-    where
-        I: Integrator<S, Dynamics<S, M, F, A, C>>,
-        K: Integration<S, C::State<S>>,
-    {
-        let Some(mut hybrid) = self.hybrid.take() else {
+    ) -> Result<(), Fault> {
+        let checkpoint = self.checkpoint(under_way, (time, state))?;
+        let (steps, mut stops) = (self.steps, false);
+        let (Some(checkpoint), Some(hybrid)) = (checkpoint, &mut self.hybrid) else {
             return Ok(());
         };
-        let checkpoint = self.checkpoint(integrator, under_way, (time, state), &mut hybrid)?;
-        let (steps, is_end) = (self.steps, time >= hybrid.end);
-        let mut stops = false;
+        let is_end = time >= hybrid.end;
         hybrid.list.each(&mut |happening| {
             let is_due = |every: usize| is_end || steps.is_multiple_of(every);
             if happening.steps_to_keep().is_some_and(is_due) {
@@ -71,69 +50,46 @@ where
         if stops && !is_end {
             self.log.stop();
         }
-        self.hybrid = Some(hybrid);
         Ok(())
     }
 
-    fn checkpoint<I, K>(
+    fn checkpoint(
         &mut self,
-        integrator: &I,
-        under_way: UnderWay<'_, K, S, C::State<S>>,
+        under_way: Option<&Begun<S>>,
         (time, state): (S, &M::State<S>),
-        hybrid: &mut Hybrid<'_, S, M>,
-    ) -> Result<Checkpoint<M, S>, Fault>
-    where
-        I: Integrator<S, Dynamics<S, M, F, A, C>>,
-        K: Integration<S, C::State<S>>,
-    {
-        let (seen, iterations) = (self.dynamics.seen(), self.dynamics.iterations());
-        let of_integration = match &under_way {
-            Some((integration, _)) => *integration.state(),
-            None => self.dynamics.nearest(state),
+    ) -> Result<Option<Checkpoint<M, S>>, Fault> {
+        let Some(hybrid) = &self.hybrid else {
+            return Ok(None);
         };
-        let rates = self.dynamics.rates(time, &of_integration)?;
-        self.dynamics.recall(seen);
-        self.dynamics.iterations = iterations;
-        let segment = under_way.map(|(integration, begun)| {
-            let (memory, is_kept) = Kept::of(|memory| integration.remember(memory));
-            is_kept.then(|| Segment {
-                start: begun.start,
-                state: elements(&begun.state),
-                of_monitor: begun.of_monitor,
-                memory,
-            })
-        });
-        let Some(segment) = segment.map_or(Some(None), |kept| kept.map(Some)) else {
-            return Err(Fault::Checkpoint(CheckpointFault::Forgetful));
-        };
-        let (interval, reporting, reports) = self.schedule.parts();
-        let (events, ()) = Kept::of(|memory| {
-            hybrid.remember(self.dynamics.tracked(), memory);
-            if !M::SEPARATIONS.is_empty() {
-                self.passing.remember(memory);
-            }
-            if Dynamics::<S, M, F, A, C>::CLOSES {
-                self.branching.remember(memory, &mut self.dynamics.near);
-            }
-        });
+        let (given, taken) = (hybrid.given, hybrid.taken);
         let mut warnings = hybrid.former.clone();
+        let equations = self.march.equations();
+        let (seen, iterations) = (equations.seen(), equations.iterations());
         if let Some(mut monitor) = self.monitor {
-            self.dynamics.name_smallest_pivot(&mut monitor);
-            monitor.end(self.dynamics.constants(), time, state);
+            equations.name_smallest_pivot(&mut monitor);
+            monitor.end(equations.constants(), time, state);
             let found = monitor.warnings().into_iter();
             warnings.extend(found.map(|warning| warning.to_string()));
         }
-        Ok(Checkpoint {
-            method: format!("{integrator:?}"),
-            formulation: format!("{:?}", self.dynamics.formulation()),
-            joints: C::IS_RELATIVE,
+        let mut rates = Vec::new();
+        let between = under_way.is_none().then_some((time, state));
+        self.march
+            .visit_rates(between, &mut |rate| rates.push(rate))?;
+        let segment = under_way.map(|begun| self.segment_of(begun)).transpose()?;
+        let (events, ()) = Kept::of(|memory| self.remember_between(memory));
+        let (interval, reporting, reports) = self.schedule.parts();
+        let equations = self.march.equations();
+        Ok(Some(Checkpoint {
+            method: format!("{:?}", self.march.method()),
+            formulation: format!("{:?}", equations.formulation()),
+            joints: equations.is_relative(),
             interval,
             reporting,
             time,
             state: *state,
-            given: hybrid.given,
-            taken: hybrid.taken,
-            present: *self.dynamics.parameters(),
+            given,
+            taken,
+            present: *equations.parameters(),
             progress: Progress {
                 steps: self.steps,
                 reports,
@@ -142,18 +98,27 @@ where
                 iterations,
                 worst_violation: self.log.worst_violation,
             },
-            rates: elements(&rates),
+            rates,
             segment,
             events,
             monitor: self.monitor.map(|monitor| (monitor, seen)),
             warnings,
+        }))
+    }
+
+    /// The integration under way.
+    fn segment_of(&mut self, begun: &Begun<S>) -> Result<Segment<S>, Fault> {
+        let (memory, is_kept) = Kept::of(|memory| self.march.remember(memory));
+        if !is_kept {
+            return Err(Fault::Checkpoint(CheckpointFault::Forgetful));
+        }
+        let mut state = Vec::new();
+        self.march.visit_start(&mut |element| state.push(element));
+        Ok(Segment {
+            start: begun.start,
+            state,
+            of_monitor: begun.of_monitor,
+            memory,
         })
     }
-}
-
-fn elements<S: Real, X: Vector<S>>(vector: &X) -> Vec<S> {
-    let mut elements = Vec::with_capacity(vector.length());
-    vector.for_each(|element| elements.push(element));
-    elements.extend_from_slice(vector.turns());
-    elements
 }

@@ -3,24 +3,19 @@
 use core::ops::ControlFlow;
 
 use crate::assembly::consistent_start::check_start;
-use crate::dynamics::Dynamics;
 use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::integrate::Integrator;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
+use crate::measure::view::View;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
 use crate::nonsmooth::status::Tracked;
-use crate::run::companion::Companion;
 use crate::run::events::context::Event;
 use crate::run::events::list::{Happening, Hybrid};
 use crate::run::events::sizes::{ahead, rate, round_off, shaken};
-use crate::run::events::watch::{Reading, Watch};
 use crate::run::sample::Sample;
 use crate::run::segments::Run;
 use crate::state::vector::{Array, StateParts, Vector as _};
+use crate::stepping::watch::{Reading, Watch};
 
 /// What handlers and controllers have done at an instant.
 #[derive(Clone, Copy)]
@@ -42,14 +37,7 @@ enum Called<S> {
     Controllers,
 }
 
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Calls controllers at the start, and takes the readings there.
     pub(crate) fn begin_events(
         &mut self,
@@ -103,18 +91,14 @@ where
 
     /// Reports an event that was found, calls its handler and the controllers of the instant that
     /// was reached. The state is the one with which the run goes on.
-    pub(crate) fn happen<I: Integrator<S, Dynamics<S, M, F, A, C>>>(
-        &mut self,
-        last_good: &mut (S, M::State<S>),
-        companion: &mut Option<Companion<S, M, F, A, C, I>>,
-    ) -> Result<(), Fault> {
+    pub(crate) fn happen(&mut self, last_good: &mut (S, M::State<S>)) -> Result<(), Fault> {
         let Some(mut hybrid) = self.hybrid.take() else {
             return Ok(());
         };
         let is_found = core::mem::take(&mut hybrid.is_found);
         if is_found && self.log.unseen > 0 {
             self.schedule.at(last_good.0, 0);
-            self.show(last_good.0, &last_good.1, companion);
+            self.show(last_good.0, &last_good.1);
         }
         let mut done = Done {
             moved: false,
@@ -127,12 +111,12 @@ where
                 self.stand(&mut hybrid, last_good.0, &last_good.1, false)?;
                 let unseen = self.log.unseen;
                 if unseen > 0 && self.schedule.at(last_good.0, unseen) {
-                    self.show(last_good.0, &last_good.1, companion);
+                    self.show(last_good.0, &last_good.1);
                 }
             }
             done = self.act(&mut hybrid, is_found || is_turned, last_good)?;
             if done.moved || hybrid.is_switched || done.stops && self.log.unseen > 0 {
-                self.show(last_good.0, &last_good.1, companion);
+                self.show(last_good.0, &last_good.1);
             }
         }
         if done.stops {
@@ -206,7 +190,7 @@ where
 
     /// Kinetic and potential energy (J).
     fn energies(&self, time: S, state: &M::State<S>) -> S {
-        let constants = self.dynamics.constants();
+        let constants = self.march.equations().constants();
         M::kinetic_energy(constants, state) + M::potential_energy(constants, time, state)
     }
 
@@ -281,18 +265,20 @@ where
             let Some(name) = name else {
                 return Ok(());
             };
-            let view = self.dynamics.view(time, state);
-            let sample = Sample::new(view, &self.dynamics);
-            let mut event = Event::new(sample, name, self.dynamics.parameters(), *inputs);
+            let equations = self.march.equations();
+            let view = View::new(equations.constants(), time, state);
+            let sample = Sample::new(view, equations);
+            let mut event = Event::new(sample, name, equations.parameters(), *inputs);
             let flow = happening.act(&mut event)?;
             let (next, held, parameters) = (event.state, event.inputs, event.parameters);
             if let Some(parameters) = parameters {
-                self.dynamics.take_parameters(parameters)?;
-                self.dynamics.renew_limits()?;
+                let equations = self.march.equations_mut();
+                equations.take_parameters(parameters)?;
+                equations.renew_limits()?;
                 *taken = Some(parameters);
             }
             if held != *inputs || parameters.is_some() {
-                self.dynamics.set_inputs(&held)?;
+                self.march.equations_mut().set_inputs(&held)?;
                 *inputs = held;
                 done.changed = true;
             }
@@ -306,7 +292,7 @@ where
             Ok(())
         })?;
         let asks = |tracked: &Tracked<S, M>| tracked.status.get().is_asked;
-        done.changed |= done.moved || self.dynamics.tracked().iter().any(asks);
+        done.changed |= done.moved || self.march.equations().interactions().iter().any(asks);
         Ok(done)
     }
 
@@ -318,11 +304,12 @@ where
         mut state: M::State<S>,
         accepts_any: bool,
     ) -> Result<M::State<S>, Fault> {
-        let constants = self.dynamics.constants();
+        let equations = self.march.equations();
+        let (constants, is_relative) = (equations.constants(), equations.is_relative());
         check_state::<S, M>(&state)?;
         M::rewrap(constants, &mut state);
-        if !accepts_any || C::IS_RELATIVE {
-            check_start::<S, M>(constants, (time, duration), &state, C::IS_RELATIVE)?;
+        if !accepts_any || is_relative {
+            check_start::<S, M>(constants, (time, duration), &state, is_relative)?;
         }
         Ok(state)
     }
@@ -335,15 +322,16 @@ where
         mut take: impl FnMut(&mut Watch<S>, Reading<S>),
     ) -> Result<(), Fault> {
         let ahead = self.ahead(hybrid, time, state);
-        let dynamics = &self.dynamics;
-        let shaken = |way| shaken::<S, M>(dynamics.constants(), time, state, way);
+        let equations = self.march.equations();
+        let constants = equations.constants();
+        let shaken = |way| shaken::<S, M>(constants, time, state, way);
         let beside = [shaken(1.0), shaken(-1.0)];
         hybrid.list.each(&mut |happening| {
             if happening.watch().is_none() {
                 return Ok(());
             }
             let read = |(time, state): (S, &M::State<S>)| {
-                happening.read(&Sample::new(dynamics.view(time, state), dynamics))
+                happening.read(&Sample::new(View::new(constants, time, state), equations))
             };
             let here = read((time, state));
             let reading = Reading {
@@ -366,7 +354,7 @@ where
         if hybrid.longest > S::zero() {
             step = step.min(hybrid.longest);
         }
-        let constants = self.dynamics.constants();
+        let constants = self.march.equations().constants();
         let mut rates = M::coordinate_rates(constants, state);
         M::state_rates_into(constants, time, state, &mut rates);
         let rates = M::State::from_parts(rates, Array::zeros());

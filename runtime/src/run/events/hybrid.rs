@@ -15,7 +15,6 @@ use crate::mechanism::kernels::{InputsOf, Mechanism};
 use crate::run::checkpoint::{Checkpoint, keeper::Keeping};
 use crate::run::events::context::Event;
 use crate::run::events::list::{Controlled, Handled, Happenings, NothingHappens};
-use crate::run::events::watch::{Crossing, Period, Watch};
 use crate::run::output::{IntoFlow, Reporting};
 use crate::run::past::Planned;
 use crate::run::report::RunResult;
@@ -23,6 +22,7 @@ use crate::run::sample::Sample;
 use crate::run::simulation::{Runs, Simulation};
 #[cfg(feature = "std")]
 use crate::run::trajectory::{Recorded, Trajectory};
+use crate::stepping::watch::{Crossing, Period, Watch};
 
 /// What a handler or a controller may return: nothing, `ControlFlow<()>`, whose `Break(())` stops
 /// the run, or a `Result` of either with a [`Fault`], which ends the run.

@@ -10,9 +10,9 @@ use crate::forward::interval::Interval;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
-use crate::run::events::root::{MOST, locate};
 use crate::run::events::switching::undecided;
 use crate::state::vector::{Array, StateParts};
+use crate::stepping::locate::{MOST, locate};
 
 /// Enclosures of a value and of its slope.
 type Enclosed = Forward<Interval, 1>;

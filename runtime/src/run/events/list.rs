@@ -13,12 +13,12 @@ use crate::run::checkpoint::Checkpoint;
 use crate::run::events::changes::Changes;
 use crate::run::events::context::Event;
 use crate::run::events::switching::Switching;
-use crate::run::events::watch::{Period, Watch, is_same};
 use crate::run::output::IntoFlow;
 use crate::run::past::Past;
 use crate::run::sample::Sample;
 #[cfg(feature = "std")]
 use crate::run::trajectory::Trajectory;
+use crate::stepping::watch::{Period, Watch, is_same};
 
 /// Something that happens in a run.
 #[doc(hidden)]

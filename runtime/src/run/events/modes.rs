@@ -1,28 +1,16 @@
 //! The modes of interactions, between two segments of a run.
 
-use crate::dynamics::Dynamics;
 use crate::error::Fault;
-use crate::formulation::Formulation;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::status::Tracked;
 use crate::run::events::list::Hybrid;
 use crate::run::segments::Run;
 
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Begins all interactions anew, once their settings are accepted.
     pub(crate) fn begin_interactions(&self) -> Result<(), Fault> {
-        let dynamics: &Dynamics<S, M, F, A, C> = &self.dynamics;
-        for tracked in dynamics.tracked() {
+        for tracked in self.march.equations().interactions() {
             tracked.interaction.check()?;
             tracked.begin();
         }
@@ -39,7 +27,7 @@ where
         bodies: &mut M::State<S>,
         moved: bool,
     ) -> Result<bool, Fault> {
-        if A::INTERACTS {
+        if self.settings.interacts {
             self.switch_modes(hybrid, time, bodies, moved)
         } else {
             Ok(false)
@@ -54,18 +42,12 @@ where
         bodies: &mut M::State<S>,
         moved: bool,
     ) -> Result<bool, Fault> {
-        let dynamics = &self.dynamics;
-        hybrid
-            .changes
-            .count(time, hybrid.longest, dynamics.tracked())?;
-        let mut state = dynamics.nearest(bodies);
-        if !moved && let Some(held) = dynamics.held(time, &state)? {
-            state = held;
-        }
-        let next = dynamics.switched(time, &state, moved)?;
-        *bodies = dynamics.bodies_near(&next, bodies);
+        let equations = self.march.equations();
+        let list = equations.interactions();
+        hybrid.changes.count(time, hybrid.longest, list)?;
+        *bodies = equations.strike(time, bodies, moved)?;
         hybrid.is_fresh = true;
-        hybrid.is_switched |= dynamics.tracked().iter().any(|tracked| {
+        hybrid.is_switched |= list.iter().any(|tracked| {
             let status = tracked.status.get();
             status.mode != status.before
         });
@@ -73,6 +55,6 @@ where
             let impact = tracked.status.get().impact;
             impact.is_some_and(|impact| impact.time == time)
         };
-        Ok(dynamics.tracked().iter().any(now))
+        Ok(list.iter().any(now))
     }
 }

@@ -1,26 +1,22 @@
 //! The sides of laws that switch, in a run: held within a step, changed between two.
 //!
-//! A step is then that of a smooth system, whatever the method. `search.rs` finds where an
+//! A step is then that of a smooth system, whatever the method. `guards.rs` finds where an
 //! expression of the state passes its zero, `instants.rs` knows it of the time ahead. Here the side
 //! is turned, and the integration begins anew.
 
-use crate::dynamics::Dynamics;
 use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::integrate::{OneStep as _, Rk4};
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::switch::Switch;
 use crate::run::events::instants::Instants;
 use crate::run::events::list::Hybrid;
-use crate::run::events::sizes::{rate, round_off, shaken};
-use crate::run::events::switching::{Switching, of, put, sliding, undecided};
-use crate::run::events::watch::is_same;
+use crate::run::events::sizes::rate;
+use crate::run::events::switching::{
+    Switching, digits_of, of, put, readings_of, sliding, undecided,
+};
 use crate::run::segments::Run;
 use crate::state::vector::Array as _;
+use crate::stepping::watch::is_same;
 
 /// A trial lasts this part of the time in which something turns by a radian or goes the length of
 /// the mechanism, at the most.
@@ -36,14 +32,7 @@ const SHORTER: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// How often the sides may be found anew at an instant, besides once for each.
 const ROUNDS: usize = 8;
 
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Whether the integration begins anew because a law has switched. Turns the sides of those
     /// whose zeros were found, in a state as it was corrected.
     pub(super) fn turn(
@@ -57,8 +46,9 @@ where
         };
         let is_found = core::mem::take(&mut switching.is_found);
         if is_found {
-            let readings = self.dynamics.switches(time, state);
-            let digits = self.dynamics.digits_of_switches((time, state), &readings);
+            let constants = self.march.equations().constants();
+            let readings = readings_of::<S, M>(constants, time, state);
+            let digits = digits_of::<S, M>(constants, (time, state), &readings);
             switching.each(|switch, watch| {
                 let [reading, digits] =
                     [&readings, &digits].map(|numbers| of::<S, M>(numbers, switch));
@@ -70,7 +60,7 @@ where
         let is_due = instant.is_some_and(|instant| time >= instant || is_same(time, instant));
         let (now, end) = (time.to_f64(), hybrid.end.to_f64());
         if is_due {
-            let instants = Instants::<M>::new(self.dynamics.parameters());
+            let instants = Instants::<M>::new(self.march.equations().parameters());
             for switch in M::SWITCHES {
                 if of::<S, M>(&switching.due, switch) != S::zero() {
                     let mut watch = switching.watch(switch);
@@ -137,7 +127,7 @@ where
             let before = watch.side();
             if switch.is_of_time {
                 let instants = known_instants
-                    .get_or_insert_with(|| Instants::<M>::new(self.dynamics.parameters()));
+                    .get_or_insert_with(|| Instants::<M>::new(self.march.equations().parameters()));
                 let now = time.to_f64();
                 let reading = instants.at(switch, now);
                 if reading.is_nan() {
@@ -153,8 +143,9 @@ where
                 }
             } else {
                 let (readings, digits) = known_readings.get_or_insert_with(|| {
-                    let readings = self.dynamics.switches(time, state);
-                    let digits = self.dynamics.digits_of_switches((time, state), &readings);
+                    let constants = self.march.equations().constants();
+                    let readings = readings_of::<S, M>(constants, time, state);
+                    let digits = digits_of::<S, M>(constants, (time, state), &readings);
                     (readings, digits)
                 });
                 let digits = of::<S, M>(digits, switch);
@@ -174,7 +165,7 @@ where
             }
             if watch.side() != before {
                 is_changed = true;
-                self.dynamics.hold(switch, watch.side());
+                self.march.equations_mut().hold(switch, watch.side());
                 (known_instants, known_readings) = (None, None);
             }
             switching.keep(switch, &watch);
@@ -190,16 +181,17 @@ where
         switch: &Switch,
         (time, state): (S, &M::State<S>),
     ) -> Result<S, Fault> {
-        let held = of::<S, M>(self.dynamics.parameters(), switch);
-        let seen = self.dynamics.seen();
+        let held = of::<S, M>(self.march.equations().parameters(), switch);
+        let seen = self.march.equations().seen();
         let longest = if longest > S::zero() {
             left.min(longest)
         } else {
             left
         };
         let mut step = longest;
-        let rates = self.dynamics.evaluate_bodies(time, state)?.rates;
-        let fastest = rate::<S, M>(self.dynamics.constants(), (state, &rates), longest);
+        let equations = self.march.equations();
+        let rates = equations.evaluation(time, state)?.rates;
+        let fastest = rate::<S, M>(equations.constants(), (state, &rates), longest);
         if fastest * step > S::constant(LITTLE) {
             step = S::constant(LITTLE).quotient(fastest);
         }
@@ -219,12 +211,12 @@ where
         // A continuous law is the same on both sides: the shortest trial tells where it leads.
         if found.is_none() && switch.is_continuous {
             let part = SHORTER.last().map_or(S::one(), |&part| S::constant(part));
-            self.dynamics.hold(switch, S::zero());
+            self.march.equations_mut().hold(switch, S::zero());
             found = Some(self.way(switch, (time, state), part * step)?);
         }
         let side = found.ok_or_else(|| sliding(switch, time))?;
-        self.dynamics.hold(switch, held);
-        self.dynamics.recall(seen);
+        self.march.equations_mut().hold(switch, held);
+        self.march.equations_mut().recall(seen);
         Ok(side)
     }
 
@@ -237,16 +229,16 @@ where
         step: S,
     ) -> Result<Option<S>, Fault> {
         // As the law reads itself: the way that it goes must be right on the side it leads to.
-        self.dynamics.hold(switch, S::zero());
+        self.march.equations_mut().hold(switch, S::zero());
         let side = self.way(switch, at, step)?;
         if side == S::zero() {
             return Ok(Some(side));
         }
-        self.dynamics.hold(switch, side);
+        self.march.equations_mut().hold(switch, side);
         if self.way(switch, at, step)? != -side {
             return Ok(Some(side));
         }
-        self.dynamics.hold(switch, -side);
+        self.march.equations_mut().hold(switch, -side);
         Ok((self.way(switch, at, step)? == -side).then_some(-side))
     }
 
@@ -257,14 +249,13 @@ where
         (time, state): (S, &M::State<S>),
         step: S,
     ) -> Result<S, Fault> {
-        let readings = self.dynamics.switches(time, state);
+        let equations = self.march.equations_mut();
+        let readings = readings_of::<S, M>(equations.constants(), time, state);
         let before = of::<S, M>(&readings, switch);
-        let mut moved = self.dynamics.nearest(state);
-        Rk4.step(&mut self.dynamics, time, &mut moved, step)?;
-        let bodies = self.dynamics.bodies_near(&moved, state);
-        let after = of::<S, M>(&self.dynamics.switches(time + step, &bodies), switch);
-        let change = after - before;
-        let digits = self.dynamics.digits_of_switches((time, state), &readings);
+        let bodies = equations.trial(time, state, step)?;
+        let after = readings_of::<S, M>(equations.constants(), time + step, &bodies);
+        let change = of::<S, M>(&after, switch) - before;
+        let digits = digits_of::<S, M>(equations.constants(), (time, state), &readings);
         let digits = of::<S, M>(&digits, switch);
         Ok(if change > digits {
             S::one()
@@ -279,7 +270,9 @@ where
     pub(crate) fn hold(&mut self, hybrid: &Hybrid<'_, S, M>) {
         if let Some(switching) = &hybrid.switching {
             for switch in M::SWITCHES {
-                self.dynamics.hold(switch, switching.watch(switch).side());
+                self.march
+                    .equations_mut()
+                    .hold(switch, switching.watch(switch).side());
             }
         }
     }
@@ -308,7 +301,7 @@ where
         until: S,
     ) -> Result<S, Fault> {
         'anew: for _ in 0..M::SWITCHES.len() + ROUNDS {
-            let instants = Instants::<M>::new(self.dynamics.parameters());
+            let instants = Instants::<M>::new(self.march.equations().parameters());
             let (mut next, mut due) = (until, M::Parameters::<S>::zeros());
             let mut is_due = false;
             for switch in M::SWITCHES.iter().filter(|switch| switch.is_of_time) {
@@ -323,7 +316,7 @@ where
                     let side = instants.side_after(switch, side, stretch.0, until.to_f64());
                     watch.begin_at(S::constant(side), S::smallest());
                     switching.keep(switch, &watch);
-                    self.dynamics.hold(switch, watch.side());
+                    self.march.equations_mut().hold(switch, watch.side());
                     continue 'anew;
                 }
                 if !(is_due && is_same(root, next)) {
@@ -341,40 +334,5 @@ where
         of_time
             .next()
             .map_or(Ok(until), |switch| Err(undecided(switch, from.to_f64())))
-    }
-}
-
-impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    C: Coordinates<M>,
-{
-    /// The expressions whose signs decide in laws, in a state of the bodies.
-    pub(crate) fn switches(&self, time: S, bodies: &M::State<S>) -> M::Parameters<S> {
-        let mut readings = M::Parameters::<S>::zeros();
-        let bodies = with_unit_orientations::<S, M>(bodies);
-        M::switches_into(self.constants(), time, &bodies, &mut readings);
-        readings
-    }
-
-    /// Down to where each of their readings is at zero.
-    fn digits_of_switches(
-        &self,
-        (time, bodies): (S, &M::State<S>),
-        readings: &M::Parameters<S>,
-    ) -> M::Parameters<S> {
-        let beside = [1.0, -1.0].map(|way| {
-            let (time, bodies) = shaken::<S, M>(self.constants(), time, bodies, way);
-            self.switches(time, &bodies)
-        });
-        let mut digits = *readings;
-        for switch in M::SWITCHES {
-            let [one, other] = beside.each_ref().map(|beside| of::<S, M>(beside, switch));
-            let size = round_off(of::<S, M>(readings, switch), [one, other]);
-            put::<S, M>(&mut digits, switch, size);
-        }
-        digits
     }
 }

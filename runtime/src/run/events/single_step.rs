@@ -8,10 +8,10 @@ use crate::measure::view::View;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::turns;
-use crate::run::events::root::locate;
 use crate::run::events::sizes::{round_off, shaken};
-use crate::run::events::watch::{Crossing, Reading, Watch, looks};
 use crate::run::stepper::{Stepper, Steps};
+use crate::stepping::locate::locate;
+use crate::stepping::watch::{Crossing, Reading, Watch, looks};
 
 /// The part of a step after which the motion says on which side of zero a reading is.
 const FIRST_LOOK: f64 = 1.0 / 1_048_576.0;

@@ -1,6 +1,7 @@
 //! Steps with interactions, for a loop that somebody else owns.
 
 use crate::dynamics::Dynamics;
+use crate::dynamics::evaluate::Evaluate;
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{Scheme, StepWithin, System as _};
@@ -11,10 +12,11 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::turns;
 use crate::nonsmooth::status::{Impact, InteractionMode, Tracked};
-use crate::run::events::looked::Looked;
-use crate::run::events::watch::looks;
-use crate::run::followed::bodies_by_halves;
 use crate::run::stepper::{Stepper, Steps};
+use crate::stepping::followed::bodies_by_halves;
+use crate::stepping::interval::Interval;
+use crate::stepping::modes::Modes;
+use crate::stepping::root::first_root;
 
 /// How often modes may change within a step, besides what each interaction may.
 const CHANGES: usize = 8;
@@ -147,8 +149,9 @@ where
                 since: time,
                 near,
             };
-            let found = within.first_end(time, end)?;
-            let near = within.near;
+            let mut modes = Modes::of(dynamics);
+            let found = first_root(&mut within, &mut modes, (time, end), true)?;
+            let (found, near) = (found.map(|(root, _)| root), within.near);
             let reached = found.unwrap_or(end);
             next = if found.is_some() {
                 step.at((reached - time).quotient(left))
@@ -187,7 +190,7 @@ struct Within<'s, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>
     near: M::State<S>,
 }
 
-impl<S, M, F, A, C, G> Within<'_, S, M, F, A, C, G>
+impl<S, M, F, A, C, G> Interval<S, M> for Within<'_, S, M, F, A, C, G>
 where
     S: Real,
     M: Mechanism,
@@ -196,34 +199,7 @@ where
     C: Coordinates<M>,
     G: Fn(S) -> C::State<S>,
 {
-    /// Where the first mode ends, which is then marked.
-    fn first_end(&mut self, start: S, end: S) -> Result<Option<S>, Fault> {
-        let mut before = start;
-        for time in looks(start, end, true) {
-            let bodies = self.bodies_at(time)?;
-            if let Some(root) = self.first_end_of_a_mode(before, (time, &bodies))? {
-                let bodies = self.bodies_at(root)?;
-                self.take_ends_of_modes(root, &bodies)?;
-                (self.since, self.near) = (root, bodies);
-                return Ok(Some(root));
-            }
-            self.modes_go_on();
-            (before, self.since, self.near) = (time, time, bodies);
-        }
-        Ok(None)
-    }
-}
-
-impl<S, M, F, A, C, G> Looked<S, M, F, A, C> for Within<'_, S, M, F, A, C, G>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    G: Fn(S) -> C::State<S>,
-{
-    fn looked(&self) -> &Dynamics<S, M, F, A, C> {
+    fn equations(&self) -> &dyn Evaluate<S, M> {
         self.dynamics
     }
 
@@ -236,5 +212,9 @@ where
             bodies = bodies_by_halves(self.dynamics, (start, near), time, at)?;
         }
         Ok(with_unit_orientations::<S, M>(&bodies))
+    }
+
+    fn look_from(&mut self, time: S, bodies: M::State<S>) {
+        (self.since, self.near) = (time, bodies);
     }
 }

@@ -8,9 +8,11 @@ use crate::error::Fault;
 use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::switch::Switch;
-use crate::run::events::watch::{Crossing, NUMBERS, Watch};
+use crate::run::events::sizes::{round_off, shaken};
 use crate::state::vector::Array;
+use crate::stepping::watch::{Crossing, NUMBERS, Watch};
 
 /// The switches of a mechanism in a run.
 pub(crate) struct Switching<S: Real, M: Mechanism> {
@@ -34,6 +36,37 @@ pub(crate) fn put<S: Real, M: Mechanism>(array: &mut M::Parameters<S>, switch: &
     if let Some(place) = array.as_mut_slice().get_mut(switch.place) {
         *place = number;
     }
+}
+
+/// The expressions whose signs decide in laws, in a state of the bodies.
+pub(crate) fn readings_of<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    bodies: &M::State<S>,
+) -> M::Parameters<S> {
+    let mut readings = M::Parameters::<S>::zeros();
+    let bodies = with_unit_orientations::<S, M>(bodies);
+    M::switches_into(constants, time, &bodies, &mut readings);
+    readings
+}
+
+/// Down to where each of their readings is at zero.
+pub(super) fn digits_of<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    (time, bodies): (S, &M::State<S>),
+    readings: &M::Parameters<S>,
+) -> M::Parameters<S> {
+    let beside = [1.0, -1.0].map(|way| {
+        let (time, bodies) = shaken::<S, M>(constants, time, bodies, way);
+        readings_of::<S, M>(constants, time, &bodies)
+    });
+    let mut digits = *readings;
+    for switch in M::SWITCHES {
+        let [one, other] = beside.each_ref().map(|beside| of::<S, M>(beside, switch));
+        let size = round_off(of::<S, M>(readings, switch), [one, other]);
+        put::<S, M>(&mut digits, switch, size);
+    }
+    digits
 }
 
 impl<S: Real, M: Mechanism> Switching<S, M> {

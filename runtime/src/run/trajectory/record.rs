@@ -1,18 +1,12 @@
 //! A run that records its motion.
 
 use super::{FINEST, POINTS, Recorded, Trajectory, interpolated};
-use crate::dynamics::Dynamics;
 use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::integrate::Advance;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::turns;
 use crate::run::events::list::Happening;
-use crate::run::followed::bodies_within;
 use crate::run::segments::Run;
 use crate::state::vector::{MovingState as _, Vector as _};
 
@@ -36,14 +30,7 @@ impl<S: Real, M: Mechanism> Happening<S, M> for Recorded<'_, M, S> {
 /// The points of a step, of which some are known.
 type Points<X> = [Option<X>; FINEST + 1];
 
-impl<S, M, F, A, C> Run<'_, S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Begins what is recorded at a time (s).
     pub(crate) fn begin_records(&mut self, time: S, is_new: bool) {
         self.each_record(&mut |trajectory| {
@@ -56,9 +43,8 @@ where
 
     /// Records the last step up to a time, of which the bodies are known if it is not its end;
     /// before it is corrected. Whether anything is recorded.
-    pub(crate) fn record_within<K: Advance<S, Dynamics<S, M, F, A, C>>>(
+    pub(crate) fn record_within(
         &mut self,
-        integration: &mut K,
         (end, at_end): (S, Option<&M::State<S>>),
         &(start, ref from): &(S, M::State<S>),
     ) -> Result<bool, Fault> {
@@ -68,22 +54,21 @@ where
         if end <= start {
             return Ok(false);
         }
-        let seen = self.dynamics.seen();
+        let seen = self.march.equations().seen();
         let mut points: Points<M::State<S>> = [None; FINEST + 1];
         let to = match at_end {
             Some(bodies) => *bodies,
-            None => bodies_within(&mut self.dynamics, integration, (start, from), end)?,
+            None => self.march.within((start, from), end)?,
         };
         points[FINEST] = Some(self.recorded(end, to)?);
-        let mut look = |run: &mut Self, points: &mut Points<M::State<S>>, intervals: usize| {
+        let look = |run: &mut Self, points: &mut Points<M::State<S>>, intervals: usize| {
             for place in (0..=FINEST).step_by(FINEST / intervals) {
                 let Some(point @ None) = points.get_mut(place) else {
                     continue;
                 };
                 let part = POINTS.get(place).copied().unwrap_or(1.0);
                 let time = S::constant(part).fused(end - start, start);
-                let near = (start, from);
-                let bodies = bodies_within(&mut run.dynamics, integration, near, time)?;
+                let bodies = run.march.within((start, from), time)?;
                 *point = Some(run.recorded(time, bodies)?);
             }
             Ok::<(), Fault>(())
@@ -98,7 +83,7 @@ where
             }
             intervals = finer;
         }
-        self.dynamics.recall(seen);
+        self.march.equations_mut().recall(seen);
         self.each_record(&mut |trajectory| {
             let known = points.iter().step_by(FINEST / intervals);
             trajectory.add((start, end), from, known.filter_map(|point| *point));
@@ -115,7 +100,7 @@ where
     /// interpolant has not.
     fn recorded(&mut self, time: S, bodies: M::State<S>) -> Result<M::State<S>, Fault> {
         let mut bodies = with_unit_orientations::<S, M>(&bodies);
-        let constants = self.dynamics.constants();
+        let constants = self.march.equations().constants();
         M::rewrap(constants, &mut bodies);
         // Angles as they are there, of which the polynomial is made.
         let counted = bodies;

@@ -113,20 +113,20 @@ impl<S: Real> Branching<S> {
             }
         }
     }
+}
 
-    /// A state, with its joints closed where it is near to one. It stays as it is where that is not
-    /// possible.
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn closed<M: Mechanism>(
-        constants: &M::Constants<S>,
-        time: S,
-        state: &M::State<S>,
-    ) -> M::State<S> {
-        let mut closed = *state;
-        match Projection::default().correct_in_motion::<M>(constants, time, &mut closed) {
-            Ok(_) => closed,
-            Err(_) => *state,
-        }
+/// A state, with its joints closed where it is near to one. It stays as it is where that is not
+/// possible.
+#[cold]
+#[inline(never)]
+pub(crate) fn closed<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+) -> M::State<S> {
+    let mut closed = *state;
+    match Projection::default().correct_in_motion::<M>(constants, time, &mut closed) {
+        Ok(_) => closed,
+        Err(_) => *state,
     }
 }

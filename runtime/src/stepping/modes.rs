@@ -1,0 +1,110 @@
+//! The modes of interactions as guards: the condition under which a mode ends.
+
+use super::guard::{Guard, Guards, Visit};
+use crate::dynamics::evaluate::Evaluate;
+use crate::error::Fault;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::scene::Scene;
+use crate::nonsmooth::status::Status;
+
+/// The modes of all interactions.
+pub(crate) struct Modes<S> {
+    /// How many interactions there are.
+    count: usize,
+    /// When (s) the efforts were found that the statuses have.
+    efforts_at: Option<S>,
+}
+
+/// The mode of one.
+struct Mode<'m, S> {
+    number: usize,
+    status: Option<Status<S>>,
+    efforts_at: &'m mut Option<S>,
+}
+
+impl<S: Real> Modes<S> {
+    pub(crate) fn of<M: Mechanism>(equations: &dyn Evaluate<S, M>) -> Self {
+        Self {
+            count: equations.interactions().len(),
+            efforts_at: None,
+        }
+    }
+}
+
+impl<S: Real, M: Mechanism> Guards<S, M> for Modes<S> {
+    fn each(&mut self, visit: &mut Visit<'_, S, M>) -> Result<(), Fault> {
+        // Others may have asked for efforts at other times since.
+        self.efforts_at = None;
+        for number in 0..self.count {
+            visit(&mut Mode {
+                number,
+                status: None,
+                efforts_at: &mut self.efforts_at,
+            })?;
+        }
+        Ok(())
+    }
+}
+
+impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
+    fn value(
+        &mut self,
+        equations: &dyn Evaluate<S, M>,
+        time: S,
+        bodies: &M::State<S>,
+    ) -> Result<S, Fault> {
+        let list = equations.interactions();
+        // Of a time at which the bodies were others they are old: it is then asked anew.
+        let is_known = *self.efforts_at == Some(time);
+        if !is_known && list.iter().any(|tracked| tracked.mode().holds()) {
+            equations.find_efforts(time, bodies)?;
+        }
+        *self.efforts_at = Some(time);
+        let Some(tracked) = list.get(self.number) else {
+            return Ok(S::one());
+        };
+        self.status = Some(tracked.status.get());
+        let scene = Scene::<S, M> {
+            constants: equations.constants(),
+            time,
+            bodies,
+        };
+        let value = tracked.reading(&scene);
+        if value.to_f64().is_nan() {
+            return Err(Fault::EventNotANumber {
+                event: tracked.interaction.name(),
+                time: time.to_f64(),
+            });
+        }
+        Ok(value)
+    }
+
+    fn is_passed(&self, value: S) -> bool {
+        self.status.is_some_and(|status| status.is_met(value))
+    }
+
+    fn beyond(&self, value: S) -> S {
+        self.status.map_or(value, |status| status.upwards(value))
+    }
+
+    fn keep(&mut self, equations: &dyn Evaluate<S, M>, value: S, _root: Option<S>) {
+        if let Some(tracked) = equations.interactions().get(self.number) {
+            tracked.update(|status| status.reading = value);
+        }
+    }
+
+    fn go_on(&mut self, equations: &dyn Evaluate<S, M>) {
+        if let Some(tracked) = equations.interactions().get(self.number) {
+            tracked.update(Status::go_on);
+        }
+    }
+
+    fn take(&mut self, equations: &dyn Evaluate<S, M>, _time: S, value: S) -> Result<(), Fault> {
+        let is_found = self.status.is_some_and(|status| status.is_met(value));
+        if let Some(tracked) = equations.interactions().get(self.number) {
+            tracked.update(|status| status.is_found = is_found);
+        }
+        Ok(())
+    }
+}
