@@ -5,6 +5,7 @@ use std::error::Error;
 #[cfg(feature = "large")]
 use holonom::RadauIIA;
 use holonom::Runs;
+use holonom::dynamics::Problem;
 use holonom::measure::NoForces;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
@@ -366,7 +367,7 @@ where
 
 fn recorded<M, F, I, C>(
     method: &'static str,
-    simulation: &Simulation<'_, f64, M, F, I, NoForces, C>,
+    simulation: &Simulation<'_, Problem<f64, M, F, NoForces, C>, I>,
     mut film: Film<M>,
     seconds: f64,
     read: impl Fn(&mut Film<M>, &Sample<'_, f64, M>),

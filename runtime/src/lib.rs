@@ -221,8 +221,9 @@ pub use run::output::{every, every_step};
 #[cfg(feature = "recorder")]
 pub use run::recorder::Recorder;
 pub use run::report::{RunReport, RunResult};
+pub use run::runs::Runs;
 pub use run::sample::Sample;
-pub use run::simulation::{Runs, Simulation};
+pub use run::simulation::Simulation;
 pub use run::stepper::Stepper;
 pub use state::vector::StateParts;
 

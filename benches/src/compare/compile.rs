@@ -202,7 +202,7 @@ fn program(scene: Scene, by_joints: bool) -> String {
          for step in 0..1000 {\n        holonom::integrate::OneStep::step(&Rk4, &mut dynamics, 1e-3 * f64::from(step), &mut state, 1e-3)?;\n    }\n    \
          println!(\"{:?}\", dynamics.bodies(&state));\n"
     } else {
-        "    let scene = Scene::default();\n    let mut stepper = Stepper::<f64, _, _, _>::new(&scene, StandardLagrange, Rk4)?;\n    \
+        "    let scene = Scene::default();\n    let mut stepper = scene.stepper(StandardLagrange, Rk4)?;\n    \
          let mut state = scene.described_state()?;\n    \
          for _ in 0..1000 {\n        stepper.step(&mut state, 1e-3)?;\n    }\n    println!(\"{state:?}\");\n"
     };

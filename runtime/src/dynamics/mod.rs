@@ -27,6 +27,7 @@ mod monitored;
 mod near;
 mod on_constraints;
 pub(crate) mod origin;
+mod problem;
 mod secants;
 mod straight_on;
 mod system;
@@ -38,6 +39,7 @@ use core::marker::PhantomData;
 use evaluate::VANISHED;
 pub(crate) use evaluate::{Evaluator, vanishes};
 pub(crate) use faults::singular;
+pub use problem::{Posed, Problem};
 
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::compliance::compliances;

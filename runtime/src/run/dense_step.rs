@@ -68,7 +68,7 @@ where
     /// #     hinge: Revolute,
     /// # }
     /// let rod = Rod::default();
-    /// let mut stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)?;
+    /// let mut stepper = rod.stepper(StandardLagrange, Rk4)?;
     /// let mut state = stepper.initial_state()?;
     /// let step = stepper.step_dense(&mut state, 0.01)?;
     /// let [early, late] = [stepper.within(&step, 0.002)?, stepper.within(&step, 0.008)?];

@@ -1,5 +1,6 @@
 //! What a user says of limits, dry friction, brakes and clutches in a run.
 
+use crate::dynamics::Problem;
 use crate::formulation::Formulation;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
@@ -11,11 +12,7 @@ use crate::nonsmooth::described::Beside;
 use crate::nonsmooth::interaction::Interaction;
 use crate::run::simulation::Simulation;
 
-/// A simulation with `K` interactions, the limits of the description among them.
-pub type WithInteractions<'a, S, M, F, I, A, C, const K: usize> =
-    Simulation<'a, S, M, F, I, Interacting<S, M, A, K>, C>;
-
-impl<'a, S, M, F, I, A, C> Simulation<'a, S, M, F, I, A, C>
+impl<'a, S, M, F, I, A, C, H> Simulation<'a, Problem<S, M, F, A, C>, I, H>
 where
     S: Real,
     M: Mechanism,
@@ -71,7 +68,7 @@ where
     pub fn interactions<const K: usize, const ALL: usize>(
         self,
         interactions: [Interaction<S, M>; K],
-    ) -> WithInteractions<'a, S, M, F, I, A, C, ALL>
+    ) -> Simulation<'a, Problem<S, M, F, Interacting<S, M, A, ALL>, C>, I, H>
     where
         M: Beside<K, ALL>,
     {
@@ -108,7 +105,7 @@ where
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn without_limits(self) -> Simulation<'a, S, M, F, I, Unlimited<A>, C> {
+    pub fn without_limits(self) -> Simulation<'a, Problem<S, M, F, Unlimited<A>, C>, I, H> {
         self.exchange(Unlimited)
     }
 }

@@ -52,7 +52,7 @@ type Prepared<S, M, F, A, C> = Dynamics<S, M, F, Heeding<S, M, A>, C>;
 ///
 /// let rod = Rod::default();
 /// let hinge = Rod::HANDLES.hinge;
-/// let mut stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)?;
+/// let mut stepper = rod.stepper(StandardLagrange, Rk4)?;
 /// let mut start = rod.described_state()?;
 /// rod.set_angle(&mut start, hinge, 0.5)?;
 /// let mut state = stepper.state_of(&start)?;
@@ -217,7 +217,7 @@ where
     /// # }
     /// let (rod, h) = (Rod::default(), Rod::HANDLES);
     /// let limits = Interaction::limits(h.hinge.angle(), [-1.0, 1.0]).restitution(0.5);
-    /// let mut stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)?
+    /// let mut stepper = rod.stepper(StandardLagrange, Rk4)?
     ///     .interactions([limits]);
     /// let mut state = stepper.initial_state()?;
     /// for _ in 0..4000 {

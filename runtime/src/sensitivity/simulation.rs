@@ -5,6 +5,7 @@ use core::ops::RangeInclusive;
 
 use super::Sensitivities;
 use super::start::check_derivatives;
+use crate::dynamics::Problem;
 use crate::error::{Fault, SimulationError, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::Forward;
@@ -18,8 +19,9 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::described::refuse_limits;
 use crate::run::output::{IntoFlow, Reporting};
 use crate::run::report::RunResult;
+use crate::run::runs::Runs;
 use crate::run::sample::Sample;
-use crate::run::simulation::{Runs, Simulation};
+use crate::run::simulation::Simulation;
 
 /// A state whose numbers carry derivatives.
 type State<M, const K: usize, S> = <M as Mechanism>::State<Forward<S, K>>;
@@ -38,7 +40,7 @@ pub struct SensitivitySimulation<
     C = <M as Mechanism>::Coordinates,
 > {
     along: Sensitivities<M, K, S>,
-    simulation: Simulation<'static, Forward<S, K>, M, F, I, Unlimited<A>, C>,
+    simulation: Simulation<'static, Problem<Forward<S, K>, M, F, Unlimited<A>, C>, I>,
 }
 
 impl<M: Mechanism, F: Debug, I: Debug, const K: usize, S: Real, A, C> Debug

@@ -132,7 +132,8 @@ fn a_feed_of_a_pitch_at_run_time() {
 fn displacements_go_with_all_turns() {
     const PITCH: f64 = 0.02;
     let feed = Feed::new(PITCH).expect("acceptable");
-    let stepper = Stepper::<f64, _, _, _>::new(&feed, StandardLagrange, Rk4)
+    let stepper = feed
+        .stepper(StandardLagrange, Rk4)
         .expect("one")
         .joint_coordinates();
     let thread = Feed::HANDLES.thread;

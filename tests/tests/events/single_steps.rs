@@ -55,7 +55,7 @@ fn a_ball_bounces_between_single_steps() {
 #[test]
 fn a_whole_step_is_that_of_step() {
     let ball = Ball::default();
-    let mut stepper = Stepper::<f64, _, _, _>::new(&ball, StandardLagrange, Rk4).expect("fine");
+    let mut stepper = ball.stepper(StandardLagrange, Rk4).expect("fine");
     let mut state = stepper.initial_state().expect("described");
     let (mut other, mut same) = (stepper.clone(), state);
     for _ in 0..10 {

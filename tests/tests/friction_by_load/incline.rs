@@ -1,5 +1,6 @@
 //! A block on an inclined plane.
 
+use holonom::dynamics::Problem;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::InteractionMode as Mode;
@@ -187,7 +188,8 @@ fn steps_and_single_precision() {
     let (incline, h) = (Incline::default(), Incline::HANDLES);
     let brakes = GRAVITY * (SINE + 0.9 * COSINE);
     let friction = Interaction::friction_by_load(h.slide, 0.9);
-    let mut stepper = Stepper::<f64, _, _, _>::new(&incline, StandardLagrange, Rk4)
+    let mut stepper = incline
+        .stepper(StandardLagrange, Rk4)
         .expect("it is prepared")
         .interactions([friction]);
     let mut state = stepper
@@ -208,7 +210,7 @@ fn steps_and_single_precision() {
     incline
         .set_displacement_rate(&mut start, h.slide, -2.0)
         .expect("it is free");
-    let report = Simulation::<f32, _, _, _>::new(
+    let report = Simulation::<Problem<f32, _, _>, _>::new(
         &incline,
         StandardLagrange,
         DormandPrince::<f32>::default(),

@@ -66,7 +66,8 @@ fn a_brake_slips_when_the_current_is_there() {
 #[test]
 fn a_brake_in_a_loop_of_ones_own_leaves_it_alone_too() {
     let (motor, h) = (Motor::default(), Motor::HANDLES);
-    let mut stepper = Stepper::<f64, _, _, _>::new(&motor, StandardLagrange, Rk4)
+    let mut stepper = motor
+        .stepper(StandardLagrange, Rk4)
         .expect("sound parameters")
         .interactions([Interaction::brake(h.shaft.angle(), 100.0)]);
     let mut state = stepper.initial_state().expect("it is described");

@@ -190,8 +190,7 @@ fn limits_change_with_their_parameters() {
         "{wanted}"
     );
     assert!((least + 0.8).abs() < 1e-9, "{least}");
-    let mut stepper =
-        Stepper::<f64, _, _, _>::new(&shaft, StandardLagrange, Rk4).expect("acceptable");
+    let mut stepper = shaft.stepper(StandardLagrange, Rk4).expect("acceptable");
     let mut state = stepper.initial_state().expect("described");
     for number in 0..800 {
         if number == 200 {
@@ -214,8 +213,7 @@ fn what_does_not_heed_them_refuses() {
         assert!(is_told && text.contains("without_limits"), "{text}");
     };
     let (shaft, h) = (shaft(), Shaft::HANDLES);
-    let mut stepper =
-        Stepper::<f64, _, _, _>::new(&shaft, StandardLagrange, Rk4).expect("acceptable");
+    let mut stepper = shaft.stepper(StandardLagrange, Rk4).expect("acceptable");
     let mut state = stepper.initial_state().expect("described");
     left_out(stepper.step_dense(&mut state, 0.01).expect_err("one"));
     let mut free = stepper.without_limits();
@@ -243,8 +241,7 @@ fn what_does_not_heed_them_refuses() {
 #[test]
 fn a_stepper_heeds_them() {
     let (shaft, h) = (shaft(), Shaft::HANDLES);
-    let mut stepper =
-        Stepper::<f64, _, _, _>::new(&shaft, StandardLagrange, Rk4).expect("acceptable");
+    let mut stepper = shaft.stepper(StandardLagrange, Rk4).expect("acceptable");
     let mut state = stepper.initial_state().expect("it is described");
     for number in 1..=800_u32 {
         stepper.step(&mut state, 1e-3).expect("it bounces");

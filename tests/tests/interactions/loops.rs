@@ -2,6 +2,7 @@
 
 use core::f64::consts::PI;
 
+use holonom::dynamics::Problem;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::InteractionMode;
@@ -122,7 +123,7 @@ fn an_angle_past_half_a_turn_is_not_the_other_side() {
 fn single_precision_comes_to_rest_as_well() {
     let (ball, rail) = (Ball::default(), Ball::HANDLES.rail);
     let integrator = DormandPrince::<f32>::default();
-    let report = Simulation::<f32, _, _, _>::new(&ball, StandardLagrange, integrator)
+    let report = Simulation::<Problem<f32, _, _>, _>::new(&ball, StandardLagrange, integrator)
         .interactions([Interaction::limits(rail.displacement(), [-1.0, 1.0]).restitution(0.5)])
         .run(0.0..=4.0, every(0.1), |sample| {
             assert!(sample.displacement(rail) > -1.0 - 1e-5);

@@ -102,7 +102,8 @@ fn stays<C: Coordinates<Gearbox>>() {
         })
         .expect("it runs");
     assert!(events > 2, "{events}");
-    let mut stepper = Stepper::<f64, _, _, _>::new(&gearbox, StandardLagrange, Rk4)
+    let mut stepper = gearbox
+        .stepper(StandardLagrange, Rk4)
         .expect("it is prepared")
         .coordinates::<C>()
         .interactions(interactions);
@@ -142,7 +143,8 @@ fn sticks_once_the_brake_slides<C: Coordinates<Gearbox>>() {
         .interactions(interactions)
         .run(0.0..=0.1, every(0.1), |_| ())
         .expect("it runs");
-    let mut stepper = Stepper::<f64, _, _, _>::new(&gearbox, StandardLagrange, Rk4)
+    let mut stepper = gearbox
+        .stepper(StandardLagrange, Rk4)
         .expect("it is prepared")
         .coordinates::<C>()
         .interactions(interactions);

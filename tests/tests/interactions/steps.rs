@@ -14,7 +14,8 @@ fn steps_swing_between_lines_of_friction() {
     block
         .set_displacement(&mut start, h.slide, 0.1)
         .expect("it is free");
-    let mut stepper = Stepper::<f64, _, _, _>::new(&block, StandardLagrange, Rk4)
+    let mut stepper = block
+        .stepper(StandardLagrange, Rk4)
         .expect("it is prepared")
         .interactions([Interaction::friction(h.slide.displacement(), capacity)]);
     let mut state = stepper.state_of(&start).expect("a state");
@@ -43,7 +44,8 @@ fn steps_swing_between_lines_of_friction() {
 #[test]
 fn a_brake_holds_between_steps_and_lets_go() {
     let (rod, h) = (Rod::default(), Rod::HANDLES);
-    let mut stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)
+    let mut stepper = rod
+        .stepper(StandardLagrange, Rk4)
         .expect("it is prepared")
         .interactions([
             Interaction::brake(h.hinge.angle(), 12.0),

@@ -77,7 +77,8 @@ fn a_stop_is_where_it_was_said_however_many_turns_away() {
 fn a_stepper_stops_there_too() -> Result<(), Fault> {
     let (gearbox, shaft) = (motor(), Gearbox::HANDLES.input_shaft);
     for dt in [0.01, 0.37] {
-        let mut stepper = Stepper::<f64, _, _, _>::new(&gearbox, StandardLagrange, Rk4)?
+        let mut stepper = gearbox
+            .stepper(StandardLagrange, Rk4)?
             .joint_coordinates()
             .interactions([Interaction::limits(shaft.angle(), [-10.0, 30.0])]);
         let mut state = stepper.state_of(&start(9.0, 0.0))?;

@@ -141,7 +141,7 @@ fn a_field_that_was_changed_is_looked_at_again() -> Result<(), Fault> {
         refused,
         Err(Fault::Parameter(ParameterError { field: "lean", .. }))
     ));
-    assert!(Stepper::<f64, _, _, _>::new(&linkage, StandardLagrange, Rk4).is_err());
+    assert!(linkage.stepper(StandardLagrange, Rk4).is_err());
     // The former parameters stay.
     stepper.step(&mut state, 1e-3)?;
     linkage.lean = 0.0;

@@ -33,7 +33,8 @@ fn angles<K: Steps>(scheme: K, steps: u32) -> [f64; 2] {
     let rod = RodPendulum::default();
     let step = 0.5 / f64::from(steps);
     let mut bodies = Stepper::new(&rod, StandardLagrange, scheme).expect("acceptable");
-    let mut joints = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, scheme)
+    let mut joints = rod
+        .stepper(StandardLagrange, scheme)
         .expect("acceptable")
         .joint_coordinates();
     let mut state = rod.described_state().expect("described");
@@ -129,7 +130,8 @@ fn coordinates_move_by_the_velocities_at_the_end() {
 #[test]
 fn semi_implicit_euler_does_not_drift() {
     let rod = RodPendulum::default();
-    let mut joints = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, SemiImplicitEuler)
+    let mut joints = rod
+        .stepper(StandardLagrange, SemiImplicitEuler)
         .expect("fine")
         .joint_coordinates();
     let mut state = joints.initial_state().expect("consistent");

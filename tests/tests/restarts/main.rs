@@ -11,6 +11,7 @@ mod trajectories;
 
 use std::cell::Cell;
 
+use holonom::dynamics::Problem;
 use holonom::measure::NoForces;
 use holonom::mechanism::Coordinates;
 use holonom::prelude::*;
@@ -68,7 +69,7 @@ const END: f64 = 1.0;
 /// in a file. How many checkpoints there were.
 fn goes_on<M, F, I, C>(
     what: &str,
-    build: &dyn Fn() -> Simulation<'static, f64, M, F, I, NoForces, C>,
+    build: &dyn Fn() -> Simulation<'static, Problem<f64, M, F, NoForces, C>, I>,
     reporting: Reporting<f64>,
 ) -> usize
 where

@@ -222,7 +222,7 @@ fn a_step_that_is_asked_within_is_what_observers_are_shown() {
                 shown.push((sample.time(), *sample.state()));
             })
             .expect("it runs");
-        let stepper = Stepper::<f64, _, _, _>::new(&flap, StandardLagrange, scheme);
+        let stepper = flap.stepper(StandardLagrange, scheme);
         let mut stepper = stepper.expect("acceptable").coordinates::<C>();
         let mut state = stepper.initial_state().expect("a start");
         let mut asked = 0;

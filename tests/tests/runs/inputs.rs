@@ -154,7 +154,7 @@ fn an_input_that_is_no_number_is_refused_by_its_name() {
 #[test]
 fn parameters_stay_what_they_are() {
     let mut crane = crane();
-    let mut stepper = Stepper::<f64, _, _, _>::new(&crane, StandardLagrange, Rk4).expect("fine");
+    let mut stepper = crane.stepper(StandardLagrange, Rk4).expect("fine");
     stepper.set_inputs(&inputs(2)).expect("acceptable");
     // What the mechanism says counts again when it is taken.
     crane.gain = 4.0;
@@ -174,7 +174,7 @@ fn parameters_stay_what_they_are() {
 fn an_input_beyond_the_range_of_the_run_is_refused() {
     let mut crane = crane();
     crane.thrust = 1e300;
-    assert!(Stepper::<f64, _, _, _>::new(&crane, StandardLagrange, Rk4).is_ok());
+    assert!(crane.stepper(StandardLagrange, Rk4).is_ok());
     let fault = Stepper::<f32, _, _, _>::new(&crane, StandardLagrange, Rk4).err();
     let Some(Fault::Parameter(error)) = fault else {
         panic!("{fault:?}")

@@ -2,6 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
+use holonom::dynamics::Problem;
 use holonom::prelude::*;
 use holonom::{
     __study::DirectCorrection,
@@ -194,7 +195,7 @@ fn recovery_keeps_the_turns_that_are_counted() {
 fn the_last_of_two_stabilisations_counts() {
     let rod = RodPendulum::default();
     let tree = TreeRecovery::new(&rod).expect("sound");
-    let end = |run: Simulation<'_, f64, _, _, _>| {
+    let end = |run: Simulation<'_, Problem<f64, _, _>, _>| {
         let report = run.run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()));
         report.expect("solvable").state
     };

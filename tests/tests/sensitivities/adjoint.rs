@@ -83,8 +83,7 @@ fn of_a_crane_by_everything() {
     let controls = controls::<STEPS>();
     let cost = |controls: &[[f64; 1]], start: &StateOf<Crane>, length: f64| {
         let crane = Crane::new(length).expect("acceptable");
-        let mut stepper =
-            Stepper::<f64, _, _, _>::new(&crane, StandardLagrange, Rk4).expect("regular");
+        let mut stepper = crane.stepper(StandardLagrange, Rk4).expect("regular");
         let mut state = stepper.state_of(start).expect("regular");
         let mut sum = 0.0;
         for number in 0..=controls.len() {

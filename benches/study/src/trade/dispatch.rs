@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use holonom::{
     __study::DirectCorrection,
     AugmentedLagrangian, Baumgarte, JointCoordinates, Mechanism, Penalty, Projection, Real, Sample,
-    Simulation, StandardLagrange,
+    Simulation, StandardLagrange, dynamics,
     dynamics::Dynamics,
     every,
     integrate::TimeSpan,
@@ -195,7 +195,7 @@ fn simulation<'a, S: Real, P: Problem, F: Studied<S> + 'static>(
     formulation: F,
     (integration, start): (IntegratorSetting, <P::Mechanism as Mechanism>::State<S>),
     stabilisation: &'a Stabilisation<'_, S, P::Mechanism>,
-) -> Simulation<'a, S, P::Mechanism, F, IntegratorSetting, NoForces, Absolute> {
+) -> Simulation<'a, dynamics::Problem<S, P::Mechanism, F, NoForces, Absolute>, IntegratorSetting> {
     let simulation =
         Simulation::new(problem.mechanism(), formulation, integration).absolute_coordinates();
     let simulation = simulation.initial_state(start);
@@ -229,7 +229,8 @@ impl<'a, P: Problem + 'a> Task<'a, P> for Observe<'_, P> {
     }
 }
 
-type Run<'a, S, M, F, C> = Simulation<'a, S, M, F, IntegratorSetting, NoForces, C>;
+type Run<'a, S, M, F, C> =
+    Simulation<'a, dynamics::Problem<S, M, F, NoForces, C>, IntegratorSetting>;
 
 fn observed<S: Real, P: Problem, F: Studied<S>, C>(
     problem: &P,

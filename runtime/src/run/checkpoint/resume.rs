@@ -1,18 +1,21 @@
 //! Runs that go on from a checkpoint.
 
 use super::Checkpoint;
+use crate::dynamics::Problem;
 use crate::formulation::Formulation;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::run::events::list::Happenings;
 use crate::run::output::IntoFlow;
 use crate::run::report::RunResult;
+use crate::run::runs::Runs;
 use crate::run::sample::Sample;
-use crate::run::simulation::{Runs, Simulation};
+use crate::run::simulation::Simulation;
 
-impl<S, M, F, I, A, C> Simulation<'_, S, M, F, I, A, C>
+impl<S, M, F, I, A, C> Simulation<'_, Problem<S, M, F, A, C>, I>
 where
     S: Real,
     M: Mechanism,
@@ -26,8 +29,7 @@ where
     ///
     /// Build the simulation as that of the run: the same mechanism with the values of its start,
     /// the same formulation, method, coordinates, corrections, breaks, forces, interactions, events
-    /// and controllers. The initial state is of no account. [`HybridSimulation::resume`] goes on
-    /// with interactions, events, controllers and further checkpoints.
+    /// and controllers. The initial state is of no account.
     ///
     /// ```
     /// use holonom::prelude::*;
@@ -53,8 +55,6 @@ where
     /// # Errors
     /// Those of [`Simulation::run`], and [`Fault::Checkpoint`](crate::Fault::Checkpoint) where the
     /// simulation is not that of the checkpoint.
-    ///
-    /// [`HybridSimulation::resume`]: crate::run::HybridSimulation::resume
     pub fn resume<O, R>(
         &self,
         checkpoint: &Checkpoint<M, S>,
@@ -65,6 +65,37 @@ where
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
-        self.run_with(None, checkpoint, observe)
+        self.setup.run_with(None, checkpoint, observe)
+    }
+}
+
+impl<S, M, F, I, A, C, E, X> Simulation<'_, Problem<S, M, F, A, C>, I, (E, X)>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Method<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+    (E, X): Happenings<S, M>,
+{
+    /// Goes on from a [`Checkpoint`] with events and controllers: the same ones as in its run, in
+    /// the same order. Closures begin with what they remember, so put it back first.
+    ///
+    /// # Errors
+    /// Those of a run, and [`Fault::Checkpoint`](crate::Fault::Checkpoint) where the simulation is
+    /// not that of the checkpoint.
+    pub fn resume<O, R>(
+        &mut self,
+        checkpoint: &Checkpoint<M, S>,
+        observe: O,
+    ) -> RunResult<S, M, R::Error<M::State<S>>>
+    where
+        I: Runs<S, M, F, C, A>,
+        O: FnMut(&Sample<'_, S, M>) -> R,
+        R: IntoFlow,
+    {
+        let list: &mut dyn Happenings<S, M> = &mut self.happenings;
+        self.setup.run_with(Some(list), checkpoint, observe)
     }
 }

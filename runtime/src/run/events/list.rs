@@ -74,7 +74,7 @@ pub trait Happening<S: Real, M: Mechanism> {
 #[doc(hidden)]
 pub(crate) type Visit<'v, S, M> = dyn FnMut(&mut dyn Happening<S, M>) -> Result<(), Fault> + 'v;
 
-/// What happens in a run of a [`HybridSimulation`](crate::run::HybridSimulation), in the order in
+/// What happens in a run of a [`Simulation`](crate::Simulation), in the order in
 /// which it was given.
 pub trait Happenings<S: Real, M: Mechanism> {
     /// Goes through it.

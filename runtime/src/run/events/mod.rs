@@ -2,8 +2,8 @@
 //!
 //! `list.rs` has what happens in a run, behind one pointer. `guards.rs` shows its conditions, modes
 //! and switches to the search for the first root of a step. `handling.rs` calls handlers and
-//! controllers between two segments. `hybrid.rs` and `settings.rs` are what a user writes,
-//! `single_step.rs` the same for a `Stepper`. `modes.rs` finds the modes of interactions anew at
+//! controllers between two segments. `setters.rs` is what a user writes, `single_step.rs`
+//! the same for a `Stepper`. `modes.rs` finds the modes of interactions anew at
 //! every such instant, and `stepper_modes.rs` for a `Stepper`. `sides.rs` turns laws that switch,
 //! `switching.rs` remembers their sides, and `instants.rs` knows those of the time ahead.
 //!
@@ -13,11 +13,10 @@ pub(crate) mod changes;
 pub(crate) mod context;
 mod guards;
 mod handling;
-pub(crate) mod hybrid;
 mod instants;
 pub(crate) mod list;
 mod modes;
-mod settings;
+pub(crate) mod setters;
 mod sides;
 mod single_step;
 mod sizes;

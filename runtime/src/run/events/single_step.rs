@@ -50,7 +50,7 @@ where
     /// #     hinge: Revolute,
     /// # }
     /// let (rod, hinge) = (Rod::default(), Rod::HANDLES.hinge);
-    /// let mut stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4)?;
+    /// let mut stepper = rod.stepper(StandardLagrange, Rk4)?;
     /// let mut state = stepper.initial_state()?;
     /// for period in 1..=100 {
     ///     let end = 0.01 * f64::from(period);

@@ -1,9 +1,9 @@
-//! A simulation with events and controllers.
+//! Events, controllers, checkpoints and trajectories of a simulation.
 
 use core::convert::Infallible;
-use core::fmt::{self, Debug};
 use core::ops::{ControlFlow, RangeInclusive};
 
+use crate::dynamics::{Posed, Problem};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::Method;
@@ -14,12 +14,12 @@ use crate::mechanism::kernels::{InputsOf, Mechanism};
 #[cfg(feature = "std")]
 use crate::run::checkpoint::{Checkpoint, keeper::Keeping};
 use crate::run::events::context::Event;
-use crate::run::events::list::{Controlled, Handled, Happenings, NothingHappens};
+use crate::run::events::list::{Controlled, Handled};
 use crate::run::output::{IntoFlow, Reporting};
-use crate::run::past::Planned;
 use crate::run::report::RunResult;
+use crate::run::runs::Runs;
 use crate::run::sample::Sample;
-use crate::run::simulation::{Runs, Simulation};
+use crate::run::simulation::Simulation;
 #[cfg(feature = "std")]
 use crate::run::trajectory::{Recorded, Trajectory};
 use crate::stepping::watch::{Crossing, Period, Watch};
@@ -36,54 +36,18 @@ impl From<Infallible> for Fault {
     }
 }
 
-/// A simulation with events and controllers, by [`Simulation::on`] and
-/// [`Simulation::every_period`]. See [`guide::events`](mod@crate::guide::events).
-pub struct HybridSimulation<T, E> {
-    pub(super) simulation: T,
-    pub(super) happenings: E,
-}
-
-/// As the simulation.
-impl<T: Debug, E> Debug for HybridSimulation<T, E> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("HybridSimulation")
-            .field("simulation", &self.simulation)
-            .finish_non_exhaustive()
-    }
-}
-
-/// A simulation in which something more happens.
-pub type With<T, E, H> = HybridSimulation<T, (E, H)>;
-
-/// What a simulation computes with, and what it simulates.
-pub trait Simulated {
-    /// Its numbers.
-    type Number: Real;
-    /// Its mechanism.
-    type Mechanism: Mechanism;
-}
-
-impl<S: Real, M: Mechanism, F, I, A, C> Simulated for Simulation<'_, S, M, F, I, A, C> {
-    type Number = S;
-    type Mechanism = M;
-}
-
-impl<T, E> HybridSimulation<T, E> {
-    fn and<H>(self, happening: H) -> With<T, E, H> {
-        HybridSimulation {
-            simulation: self.simulation,
+impl<'a, P: Posed, I, H> Simulation<'a, P, I, H> {
+    fn and<X>(self, happening: X) -> Simulation<'a, P, I, (H, X)> {
+        Simulation {
+            setup: self.setup,
             happenings: (self.happenings, happening),
         }
     }
 }
 
-impl<'a, S, M, F, I, A, C> Simulation<'a, S, M, F, I, A, C>
+impl<'a, P, I, H> Simulation<'a, P, I, H>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    I: Method<S>,
-    C: Coordinates<M>,
+    P: Posed,
 {
     /// Calls a handler where a reading passes zero.
     ///
@@ -129,19 +93,23 @@ where
     /// without end, those of a start for a state that a handler sets, and the fault that a handler
     /// returns. [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
     #[must_use]
-    pub fn on<G, H, R>(
+    pub fn on<G, K, R>(
         self,
         name: &'static str,
         crossing: Crossing,
         reading: G,
-        handler: H,
-    ) -> HybridSimulation<Self, (NothingHappens, Handled<S, G, H>)>
+        handler: K,
+    ) -> Simulation<'a, P, I, (H, Handled<P::Number, G, K>)>
     where
-        G: Fn(&Sample<'_, S, M>) -> S,
-        H: FnMut(&mut Event<'_, S, M>) -> R,
+        G: Fn(&Sample<'_, P::Number, P::Mechanism>) -> P::Number,
+        K: FnMut(&mut Event<'_, P::Number, P::Mechanism>) -> R,
         R: Handling,
     {
-        self.without_events().on(name, crossing, reading, handler)
+        self.and(Handled {
+            watch: Watch::new(name, crossing),
+            reading,
+            handler,
+        })
     }
 
     /// Calls a controller at `t0 + k dt` (s), `t0` included and the end of the run not. The inputs
@@ -184,14 +152,17 @@ where
     #[must_use]
     pub fn every_period<K, R>(
         self,
-        period: S,
+        period: P::Number,
         controller: K,
-    ) -> HybridSimulation<Self, (NothingHappens, Controlled<S, K>)>
+    ) -> Simulation<'a, P, I, (H, Controlled<P::Number, K>)>
     where
-        K: FnMut(&Sample<'_, S, M>, &mut M::Inputs<S>) -> R,
+        K: FnMut(&Sample<'_, P::Number, P::Mechanism>, &mut InputsOf<P::Mechanism, P::Number>) -> R,
         R: Handling,
     {
-        self.without_events().every_period(period, controller)
+        self.and(Controlled {
+            period: Period::new(period),
+            controller,
+        })
     }
 
     /// Calls a closure with a [`Checkpoint`] after every so many steps, and at the end of the run,
@@ -209,16 +180,12 @@ where
     /// of a run that is to be [`Simulation::verified`].
     #[cfg(feature = "std")]
     #[must_use]
-    pub fn checkpoints<K, R>(
-        self,
-        steps: usize,
-        keep: K,
-    ) -> HybridSimulation<Self, (NothingHappens, Keeping<K>)>
+    pub fn checkpoints<K, R>(self, steps: usize, keep: K) -> Simulation<'a, P, I, (H, Keeping<K>)>
     where
-        K: FnMut(&Checkpoint<M, S>) -> R,
+        K: FnMut(&Checkpoint<P::Mechanism, P::Number>) -> R,
         R: Handling,
     {
-        self.without_events().checkpoints(steps, keep)
+        self.and(Keeping { steps, keep })
     }
 
     /// Records the motion, to be asked at any time when the run is over: see [`Trajectory`]. What
@@ -230,11 +197,20 @@ where
     #[must_use]
     pub fn trajectory(
         self,
-        trajectory: &mut Trajectory<M, S>,
-    ) -> HybridSimulation<Self, (NothingHappens, Recorded<'_, M, S>)> {
-        self.without_events().trajectory(trajectory)
+        trajectory: &mut Trajectory<P::Mechanism, P::Number>,
+    ) -> Simulation<'a, P, I, (H, Recorded<'_, P::Mechanism, P::Number>)> {
+        self.and(Recorded(trajectory))
     }
+}
 
+impl<S, M, F, I, A, C> Simulation<'_, Problem<S, M, F, A, C>, I>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Method<S>,
+    C: Coordinates<M>,
+{
     /// Runs until a reading first passes zero, or to the end:
     /// [`RunReport::stopped`](crate::RunReport::stopped) says which,
     /// [`RunReport::time`](crate::RunReport::time) when. For reports on the way use
@@ -281,135 +257,7 @@ where
             Reporting::EveryStep
         };
         let stop = |_: &mut Event<'_, S, M>| ControlFlow::Break(());
-        let hybrid = self
-            .clone()
-            .without_events()
-            .on("the end", crossing, reading, stop);
-        { hybrid }.run(interval, reporting, |_| ())
-    }
-
-    fn without_events(self) -> HybridSimulation<Self, NothingHappens> {
-        HybridSimulation {
-            simulation: self,
-            happenings: NothingHappens,
-        }
-    }
-}
-
-impl<T: Simulated, E> HybridSimulation<T, E> {
-    /// See [`Simulation::on`].
-    #[must_use]
-    pub fn on<G, H, R>(
-        self,
-        name: &'static str,
-        crossing: Crossing,
-        reading: G,
-        handler: H,
-    ) -> With<T, E, Handled<T::Number, G, H>>
-    where
-        G: Fn(&Sample<'_, T::Number, T::Mechanism>) -> T::Number,
-        H: FnMut(&mut Event<'_, T::Number, T::Mechanism>) -> R,
-        R: Handling,
-    {
-        self.and(Handled {
-            watch: Watch::new(name, crossing),
-            reading,
-            handler,
-        })
-    }
-
-    /// See [`Simulation::every_period`].
-    #[must_use]
-    pub fn every_period<K, R>(
-        self,
-        period: T::Number,
-        controller: K,
-    ) -> With<T, E, Controlled<T::Number, K>>
-    where
-        K: FnMut(&Sample<'_, T::Number, T::Mechanism>, &mut InputsOf<T::Mechanism, T::Number>) -> R,
-        R: Handling,
-    {
-        self.and(Controlled {
-            period: Period::new(period),
-            controller,
-        })
-    }
-
-    /// See [`Simulation::checkpoints`].
-    #[cfg(feature = "std")]
-    #[must_use]
-    pub fn checkpoints<K, R>(self, steps: usize, keep: K) -> With<T, E, Keeping<K>>
-    where
-        K: FnMut(&Checkpoint<T::Mechanism, T::Number>) -> R,
-        R: Handling,
-    {
-        self.and(Keeping { steps, keep })
-    }
-
-    /// See [`Simulation::trajectory`].
-    #[cfg(feature = "std")]
-    #[must_use]
-    pub fn trajectory(
-        self,
-        trajectory: &mut Trajectory<T::Mechanism, T::Number>,
-    ) -> With<T, E, Recorded<'_, T::Mechanism, T::Number>> {
-        self.and(Recorded(trajectory))
-    }
-}
-
-impl<S, M, F, I, A, C, E> HybridSimulation<Simulation<'_, S, M, F, I, A, C>, E>
-where
-    S: Real,
-    M: Mechanism,
-{
-    /// Runs over an interval of time (s) as [`Simulation::run`] does, with events and controllers.
-    /// A further run begins with what their closures remember.
-    ///
-    /// # Errors
-    /// Those of [`Simulation::run`], [`Simulation::on`] and [`Simulation::every_period`].
-    pub fn run<O, R>(
-        &mut self,
-        interval: RangeInclusive<S>,
-        reporting: Reporting<S>,
-        observe: O,
-    ) -> RunResult<S, M, R::Error<M::State<S>>>
-    where
-        F: Formulation<S>,
-        I: Runs<S, M, F, C, A>,
-        E: Happenings<S, M>,
-        A: AppliedForces<S, M>,
-        C: Coordinates<M>,
-        O: FnMut(&Sample<'_, S, M>) -> R,
-        R: IntoFlow,
-    {
-        let happenings = Some(&mut self.happenings as &mut dyn Happenings<S, M>);
-        self.simulation
-            .run_with(happenings, Planned(interval, reporting), observe)
-    }
-
-    /// Goes on from a [`Checkpoint`] as [`Simulation::resume`] does, with events and controllers:
-    /// the same ones as in its run, in the same order. Closures begin with what they remember, so
-    /// put it back first.
-    ///
-    /// # Errors
-    /// Those of [`HybridSimulation::run`], and [`Fault::Checkpoint`] where the simulation is not
-    /// that of the checkpoint.
-    #[cfg(feature = "std")]
-    pub fn resume<O, R>(
-        &mut self,
-        checkpoint: &Checkpoint<M, S>,
-        observe: O,
-    ) -> RunResult<S, M, R::Error<M::State<S>>>
-    where
-        F: Formulation<S>,
-        I: Runs<S, M, F, C, A>,
-        E: Happenings<S, M>,
-        A: AppliedForces<S, M>,
-        C: Coordinates<M>,
-        O: FnMut(&Sample<'_, S, M>) -> R,
-        R: IntoFlow,
-    {
-        let list: &mut dyn Happenings<S, M> = &mut self.happenings;
-        self.simulation.run_with(Some(list), checkpoint, observe)
+        let mut run = self.clone().on("the end", crossing, reading, stop);
+        run.run(interval, reporting, |_| ())
     }
 }

@@ -1,0 +1,346 @@
+//! Runs of a simulation over an interval of time.
+
+use core::ops::{ControlFlow, RangeInclusive};
+
+use crate::assembly::assembled;
+use crate::assembly::consistent_start::check_start;
+use crate::constraints::row_units::characteristic_length;
+use crate::dynamics::{Dynamics, Problem};
+use crate::error::Fault;
+use crate::formulation::Formulation;
+use crate::integrate::{Counts, Integrator, Method};
+use crate::math::scalar::Real;
+use crate::measure::interacting::Heeding;
+use crate::measure::load::{AppliedForces, NoForces};
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::limits::Several as _;
+use crate::mechanism::orientations::check_state;
+use crate::monitor::Monitor;
+use crate::run::companion::Companion;
+use crate::run::events::list::{Happenings, Hybrid, NothingHappens};
+use crate::run::events::switching::Switching;
+use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
+use crate::run::passing::Passing;
+use crate::run::past::{Past, Plan, Planned};
+use crate::run::post_step::PostStabilisation;
+use crate::run::report::{RunReport, RunResult};
+use crate::run::resumed::take_values;
+use crate::run::sample::Sample;
+use crate::run::segments::{Log, Observer, Run};
+use crate::run::simulation::{Setup, Simulation, Source};
+use crate::state::vector::{Array, StateParts};
+use crate::stepping::march::March;
+use crate::stepping::marching::Marching as _;
+
+/// The interval (s) of a run, when it reports, and where it goes on.
+type ToDo<'p, S, M> = ((S, S), Reporting<S>, Option<&'p Past<'p, S, M>>);
+
+impl<S, M, F, I, A, C> Simulation<'_, Problem<S, M, F, A, C>, I, NothingHappens>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Method<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// Runs over an interval of time (s) and shows the state to `observe` at the start, at the
+    /// reporting times and at the end. An observer that returns `ControlFlow::Break(())` stops the
+    /// run; one that returns nothing never does.
+    ///
+    /// An observer may return a `Result` of either, such as that of [`Sample::reaction`] or of
+    /// `Recorder::record`. Its error stops the run, which returns it as
+    /// [`RunError::Observer`](crate::RunError::Observer).
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// # #[derive(Mechanism)]
+    /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// # struct Rod {
+    /// #     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+    /// #     rod: Body,
+    /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    /// #     hinge: Revolute,
+    /// # }
+    /// let (rod, handles) = (Rod::default(), Rod::HANDLES);
+    /// let mut largest = 0.0_f64;
+    /// Simulation::new(&rod, StandardLagrange, Rk4::every(0.01)).run(
+    ///     0.0..=1.0,
+    ///     every(0.1),
+    ///     |sample| {
+    ///         let reaction = sample.reaction(handles.hinge, handles.rod)?;
+    ///         largest = largest.max(reaction.force.norm());
+    ///         Ok::<(), Fault>(())
+    ///     },
+    /// )?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// That of the observer. Else, where the run cannot go on, a
+    /// [`SimulationError`](crate::SimulationError) with time, cause and last good state. Causes are
+    /// a parameter, a coefficient or a setting that is not acceptable, a singular configuration,
+    /// no convergence, a step too small, numbers out of range. The state is of zeros where a
+    /// parameter was refused and no initial state had been given.
+    pub fn run<O, R>(
+        &self,
+        interval: RangeInclusive<S>,
+        reporting: Reporting<S>,
+        observe: O,
+    ) -> RunResult<S, M, R::Error<M::State<S>>>
+    where
+        I: Runs<S, M, F, C, A>,
+        O: FnMut(&Sample<'_, S, M>) -> R,
+        R: IntoFlow,
+    {
+        self.setup
+            .run_with(None, Planned(interval, reporting), observe)
+    }
+}
+
+impl<S, M, F, I, A, C, E, X> Simulation<'_, Problem<S, M, F, A, C>, I, (E, X)>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Method<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+    (E, X): Happenings<S, M>,
+{
+    /// Runs over an interval of time (s) as a simulation does in which nothing happens, with events
+    /// and controllers. A further run begins with what their closures remember.
+    ///
+    /// # Errors
+    /// Those of a run, of [`Simulation::on`] and [`Simulation::every_period`].
+    pub fn run<O, R>(
+        &mut self,
+        interval: RangeInclusive<S>,
+        reporting: Reporting<S>,
+        observe: O,
+    ) -> RunResult<S, M, R::Error<M::State<S>>>
+    where
+        I: Runs<S, M, F, C, A>,
+        O: FnMut(&Sample<'_, S, M>) -> R,
+        R: IntoFlow,
+    {
+        let happenings = Some(&mut self.happenings as &mut dyn Happenings<S, M>);
+        self.setup
+            .run_with(happenings, Planned(interval, reporting), observe)
+    }
+}
+
+impl<S, M, F, I, A, C> Setup<'_, Problem<S, M, F, A, C>, I>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    I: Method<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
+    /// Runs with what happens, as it is planned.
+    pub(super) fn run_with<O, R>(
+        &self,
+        happenings: Option<&mut dyn Happenings<S, M>>,
+        plan: impl Plan<S, M>,
+        mut observe: O,
+    ) -> RunResult<S, M, R::Error<M::State<S>>>
+    where
+        I: Runs<S, M, F, C, A>,
+        O: FnMut(&Sample<'_, S, M>) -> R,
+        R: IntoFlow,
+    {
+        let mut failure = None;
+        let mut observe = |sample: &Sample<'_, S, M>| {
+            observe(sample).into_flow().unwrap_or_else(|error| {
+                failure = Some(error);
+                ControlFlow::Break(())
+            })
+        };
+        let (interval, reporting) = plan.interval();
+        let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
+        let mut last_good = (interval.0, self.initial.unwrap_or_else(zeros));
+        let past = plan.past(&self.integrator, &self.formulation, C::IS_RELATIVE);
+        let report = past.and_then(|past| {
+            let plan = (interval, reporting, past.as_ref());
+            self.attempt(happenings, plan, &mut observe, &mut last_good)
+        });
+        outcome::<R, _, _, _>(report, failure, last_good)
+    }
+
+    fn attempt(
+        &self,
+        happenings: Option<&mut dyn Happenings<S, M>>,
+        ((start, end), reporting, past): ToDo<'_, S, M>,
+        observe: &mut Observer<'_, S, M>,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<RunReport<S, M>, Fault>
+    where
+        I: Runs<S, M, F, C, A>,
+    {
+        let dynamics = match self.mechanism {
+            Source::Mechanism(mechanism) => Dynamics::new(mechanism, self.formulation),
+            Source::Parameters(given) => Dynamics::of_parameters(given, self.formulation),
+        }?;
+        let given = *dynamics.parameters();
+        let forces = Heeding::new(&self.forces, &given);
+        let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
+        let described = M::initial_state(dynamics.constants());
+        let length = characteristic_length::<S, M>(dynamics.constants(), &described);
+        let integrator = &self.integrator.for_length(length);
+        if let Some(past) = past {
+            take_values(&mut dynamics, past)?;
+        }
+        let constants = *dynamics.constants();
+        let described = || M::initial_state(&constants);
+        *last_good = past.map_or_else(
+            || (start, self.initial.unwrap_or_else(described)),
+            |past| past.at,
+        );
+        check_interval(start, end)?;
+        check_interval(last_good.0, end)?;
+        if let Some(instant) = self.breaks.iter().find(|instant| !instant.is_finite()) {
+            return Err(Fault::BreakNotFinite {
+                instant: instant.to_f64(),
+            });
+        }
+        let schedule = Schedule::new(start, end, reporting)?;
+        let schedule = schedule.after(past.map_or(0, |past| past.progress.reports));
+        // Laws that switch and interactions make events of their own.
+        let has_events = !M::SWITCHES.is_empty() || A::Tracked::COUNT > 0;
+        let mut nothing = NothingHappens;
+        let happenings = match happenings {
+            None if has_events => Some(&mut nothing as &mut dyn Happenings<S, M>),
+            other => other,
+        };
+        let hybrid = happenings.map(|list| self.hybrid(list, (start, end), &given, past));
+        let mut hybrid = hybrid.transpose()?;
+        let mut switching = (!M::SWITCHES.is_empty()).then(Switching::new);
+        if let Some(hybrid) = &mut hybrid {
+            hybrid.switching = switching.as_mut();
+        }
+        check_state::<S, M>(&last_good.1)?;
+        if past.is_none() {
+            last_good.1 = self.start(&constants, (start, end), last_good.1, described)?;
+        } else if self.is_verified {
+            return Err(Fault::NotVerified);
+        }
+        let state = last_good.1;
+        let monitor = self.is_monitored.then(|| {
+            Monitor::new(&constants, last_good.0, &state)
+                .of_joints(C::keeps_equations)
+                .over(integrator)
+                .decaying(self.formulation.decay_rate())
+        });
+        let beside = integrator.companion(end - start);
+        let mut beside = match beside.filter(|_| self.is_verified) {
+            Some(integrator) => {
+                let formulation = self.formulation.companion();
+                let dynamics = Dynamics::of_parameters(given, formulation)?;
+                let forces = Heeding::new(&self.forces, &given);
+                let dynamics = dynamics.with_forces(forces).coordinates::<C>();
+                Some(March::new(dynamics, integrator))
+            }
+            None => None,
+        };
+        let mut march = March::new(dynamics, *integrator);
+        let projection = self.projection.as_ref();
+        let projection = projection.map(|projection| projection as &dyn PostStabilisation<S, M>);
+        let run = Run {
+            settings: march.settings(),
+            march: &mut march,
+            companion: beside
+                .as_mut()
+                .map(|march| Companion::new(march, (start, &state))),
+            stabilisation: self.stabilisation.or(projection),
+            schedule,
+            breaks: self.breaks,
+            monitor,
+            log: Log::new(observe),
+            hybrid,
+            passing: Passing::by(integrator),
+            steps: 0,
+            counts: Counts::default(),
+            gone: None,
+        };
+        run.go((start, end), last_good, past)
+    }
+
+    /// The start of a run over an interval (s) from a state, assembled where that is asked.
+    fn start(
+        &self,
+        constants: &M::Constants<S>,
+        (start, end): (S, S),
+        mut state: M::State<S>,
+        described: impl Fn() -> M::State<S>,
+    ) -> Result<M::State<S>, Fault> {
+        M::rewrap(constants, &mut state);
+        if let Some(projection) = self.assemble {
+            assembled::<S, M>(&projection, constants, start, &mut state, &described())?;
+        }
+        if !self.accepts_any_start || C::IS_RELATIVE {
+            let interval = (start, end - start);
+            check_start::<S, M>(constants, interval, &state, C::IS_RELATIVE)?;
+        }
+        Ok(state)
+    }
+
+    /// What happens in a run over an interval (s).
+    fn hybrid<'h>(
+        &self,
+        list: &'h mut (dyn Happenings<S, M> + 'h),
+        interval: (S, S),
+        given: &M::Parameters<S>,
+        past: Option<&Past<'_, S, M>>,
+    ) -> Result<Hybrid<'h, S, M>, Fault> {
+        if self.is_verified {
+            return Err(Fault::NotVerified);
+        }
+        let hybrid = Hybrid::new(list, given, self.accepts_any_start, interval)?;
+        Ok(match past {
+            Some(past) => hybrid.resumed(past),
+            None => hybrid,
+        })
+    }
+}
+
+/// Methods that run a mechanism `M` by a formulation `F`, with forces `A` of a closure and in the
+/// coordinates `C`. It is implemented by every [`Integrator`] of such a system; a function that is
+/// generic over methods asks for it.
+///
+/// ```
+/// use holonom::{Runs, prelude::*};
+///
+/// fn evaluations<M, I>(mechanism: &M, method: I) -> usize
+/// where
+///     M: Mechanism,
+///     I: Runs<f64, M, StandardLagrange>,
+/// {
+///     let simulation = Simulation::new(mechanism, StandardLagrange, method);
+///     let run = simulation.run(0.0..=1.0, every(0.1), |_| ());
+///     run.map_or(0, |report| report.evaluations)
+/// }
+/// ```
+pub trait Runs<S, M, F, C = <M as Mechanism>::Coordinates, A = NoForces>:
+    for<'f> Integrator<S, Dynamics<S, M, F, Heeding<S, M, &'f A>, C>>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+    A: AppliedForces<S, M>,
+{
+}
+
+impl<I, S, M, F, A, C> Runs<S, M, F, C, A> for I
+where
+    I: for<'f> Integrator<S, Dynamics<S, M, F, Heeding<S, M, &'f A>, C>>,
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+    A: AppliedForces<S, M>,
+{
+}
