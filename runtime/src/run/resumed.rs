@@ -50,10 +50,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         if !past.events.read(|memory| self.remember_between(memory)) {
             return Err(refused(CheckpointFault::Happenings));
         }
-        if let Some(hybrid) = self.hybrid.take() {
-            self.hold(&hybrid);
-            self.hybrid = Some(hybrid);
-        }
+        self.hold();
         let progress = &past.progress;
         self.steps = progress.steps;
         self.counts = progress.counts;
@@ -81,8 +78,9 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
 
     /// Hands over what is remembered between two steps, besides the integration and the monitor.
     pub(crate) fn remember_between(&mut self, memory: &mut Memory<'_, S>) {
-        if let Some(hybrid) = &mut self.hybrid {
-            hybrid.remember(self.march.equations().interactions(), memory);
+        if !self.hybrid.is_empty {
+            let interactions = self.march.equations().interactions();
+            self.hybrid.remember(interactions, memory);
             if !M::SEPARATIONS.is_empty() {
                 self.passing.remember(memory);
             }

@@ -209,18 +209,20 @@ where
         let schedule = Schedule::new(start, end, reporting)?;
         let schedule = schedule.after(past.map_or(0, |past| past.progress.reports));
         // Laws that switch and interactions make events of their own.
-        let has_events = !M::SWITCHES.is_empty() || A::Tracked::COUNT > 0;
-        let mut nothing = NothingHappens;
-        let happenings = match happenings {
-            None if has_events => Some(&mut nothing as &mut dyn Happenings<S, M>),
-            other => other,
-        };
-        let hybrid = happenings.map(|list| self.hybrid(list, (start, end), &given, past));
-        let mut hybrid = hybrid.transpose()?;
-        let mut switching = (!M::SWITCHES.is_empty()).then(Switching::new);
-        if let Some(hybrid) = &mut hybrid {
-            hybrid.switching = switching.as_mut();
+        let has_own = !M::SWITCHES.is_empty() || A::Tracked::COUNT > 0;
+        let is_empty = happenings.is_none() && !has_own;
+        if self.is_verified && !is_empty {
+            return Err(Fault::NotVerified);
         }
+        let mut nothing = NothingHappens;
+        let list = happenings.unwrap_or(&mut nothing);
+        let mut hybrid = Hybrid::new(list, &given, self.accepts_any_start, (start, end))?;
+        hybrid.is_empty = is_empty;
+        if let Some(past) = past {
+            hybrid = hybrid.resumed(past);
+        }
+        let mut switching = (!M::SWITCHES.is_empty()).then(Switching::new);
+        hybrid.switching = switching.as_mut();
         check_state::<S, M>(&last_good.1)?;
         if past.is_none() {
             last_good.1 = self.start(&constants, (start, end), last_good.1, described)?;
@@ -285,24 +287,6 @@ where
             check_start::<S, M>(constants, interval, &state, C::IS_RELATIVE)?;
         }
         Ok(state)
-    }
-
-    /// What happens in a run over an interval (s).
-    fn hybrid<'h>(
-        &self,
-        list: &'h mut (dyn Happenings<S, M> + 'h),
-        interval: (S, S),
-        given: &M::Parameters<S>,
-        past: Option<&Past<'_, S, M>>,
-    ) -> Result<Hybrid<'h, S, M>, Fault> {
-        if self.is_verified {
-            return Err(Fault::NotVerified);
-        }
-        let hybrid = Hybrid::new(list, given, self.accepts_any_start, interval)?;
-        Ok(match past {
-            Some(past) => hybrid.resumed(past),
-            None => hybrid,
-        })
     }
 }
 

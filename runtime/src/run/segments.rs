@@ -36,7 +36,7 @@ pub(crate) struct Run<'r, S: Real, M: Mechanism> {
     pub(crate) companion: Option<Companion<'r, S, M>>,
     pub(crate) log: Log<'r, S, M>,
     /// Events and controllers.
-    pub(crate) hybrid: Option<Hybrid<'r, S, M>>,
+    pub(crate) hybrid: Hybrid<'r, S, M>,
     /// Lengths that pass through zero.
     pub(crate) passing: Passing<S>,
     /// Steps so far.
@@ -142,9 +142,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         }
         while from < end && self.log.flow.is_continue() {
             let mut until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
-            if let Some(hybrid) = &mut self.hybrid {
-                until = hybrid.next_instant(until);
-            }
+            until = self.hybrid.next_instant(until);
             until = self
                 .next_switch(from, until)
                 .map_err(|fault| self.explained(fault, *last_good))?;
@@ -422,8 +420,8 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Whether bodies are of no use before somebody looks: nothing reads the end of each step.
     #[inline]
     fn may_defer(&self) -> bool {
-        let reads = self.monitor.is_some() || self.stabilisation.is_some() || self.hybrid.is_some();
-        self.settings.may_defer && M::SEPARATIONS.is_empty() && !reads
+        let reads = self.monitor.is_some() || self.stabilisation.is_some();
+        self.settings.may_defer && M::SEPARATIONS.is_empty() && self.hybrid.is_empty && !reads
     }
 
     /// Converts the last good state to bodies, if that was deferred.

@@ -15,14 +15,12 @@ use crate::run::segments::{Begun, Run};
 impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Whether checkpoints are kept.
     pub(crate) fn keeps(&self) -> bool {
-        self.hybrid
-            .as_ref()
-            .is_some_and(|hybrid| hybrid.keeps.is_some())
+        self.hybrid.keeps.is_some()
     }
 
     /// Whether a checkpoint is to be kept after this step.
     pub(crate) fn keeps_now(&self) -> bool {
-        let steps = self.hybrid.as_ref().and_then(|hybrid| hybrid.keeps);
+        let steps = self.hybrid.keeps;
         steps.is_some_and(|steps| self.steps.is_multiple_of(steps))
     }
 
@@ -35,9 +33,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     ) -> Result<(), Fault> {
         let checkpoint = self.checkpoint(under_way, (time, state))?;
         let (steps, mut stops) = (self.steps, false);
-        let (Some(checkpoint), Some(hybrid)) = (checkpoint, &mut self.hybrid) else {
-            return Ok(());
-        };
+        let hybrid = &mut self.hybrid;
         let is_end = time >= hybrid.end;
         hybrid.list.each(&mut |happening| {
             let is_due = |every: usize| is_end || steps.is_multiple_of(every);
@@ -57,12 +53,9 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         &mut self,
         under_way: Option<&Begun<S>>,
         (time, state): (S, &M::State<S>),
-    ) -> Result<Option<Checkpoint<M, S>>, Fault> {
-        let Some(hybrid) = &self.hybrid else {
-            return Ok(None);
-        };
-        let (given, taken) = (hybrid.given, hybrid.taken);
-        let mut warnings = hybrid.former.clone();
+    ) -> Result<Checkpoint<M, S>, Fault> {
+        let (given, taken) = (self.hybrid.given, self.hybrid.taken);
+        let mut warnings = self.hybrid.former.clone();
         let equations = self.march.equations();
         let (seen, iterations) = (equations.seen(), equations.iterations());
         if let Some(mut monitor) = self.monitor {
@@ -79,7 +72,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         let (events, ()) = Kept::of(|memory| self.remember_between(memory));
         let (interval, reporting, reports) = self.schedule.parts();
         let equations = self.march.equations();
-        Ok(Some(Checkpoint {
+        Ok(Checkpoint {
             method: format!("{:?}", self.march.method()),
             formulation: format!("{:?}", equations.formulation()),
             joints: equations.is_relative(),
@@ -103,7 +96,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             events,
             monitor: self.monitor.map(|monitor| (monitor, seen)),
             warnings,
-        }))
+        })
     }
 
     /// The integration under way.

@@ -29,8 +29,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     #[inline]
     pub(crate) fn looks_for_events(&self) -> bool {
         let always = self.settings.interacts || Switching::<S, M>::watches();
-        let watches = |hybrid: &Hybrid<'_, S, M>| hybrid.watches || always;
-        self.hybrid.as_ref().is_some_and(watches)
+        self.hybrid.watches || always
     }
 
     /// The time and the state of the first event within the last step, which began at a time where
@@ -41,9 +40,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         (start, near): (S, &M::State<S>),
         end: S,
     ) -> Result<Found<S, M>, Fault> {
-        let Some(hybrid) = &mut self.hybrid else {
-            return Ok(None);
-        };
+        let hybrid = &mut self.hybrid;
         hybrid.longest = hybrid.longest.max(end - start);
         let is_fresh = hybrid.is_fresh;
         let seen = self.march.equations().seen();

@@ -3,6 +3,7 @@
 use core::ops::ControlFlow;
 
 use crate::assembly::consistent_start::check_start;
+use crate::dynamics::equations::Equations;
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::measure::view::View;
@@ -43,22 +44,19 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         &mut self,
         (time, state): &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
-        let Some(mut hybrid) = self.hybrid.take() else {
+        if self.hybrid.is_empty {
             return Ok(());
-        };
+        }
         self.begin_interactions()?;
-        self.stand(&mut hybrid, *time, state, true)?;
+        self.stand(*time, state, true)?;
         let before = self.monitor.is_some().then(|| self.energies(*time, state));
-        let done = self.call(&mut hybrid, Called::Controllers, *time, state)?;
-        self.stand(&mut hybrid, *time, state, true)?;
-        if self.switch(&mut hybrid, *time, state, true)? {
-            self.stand(&mut hybrid, *time, state, true)?;
+        let done = self.call(Called::Controllers, *time, state)?;
+        self.stand(*time, state, true)?;
+        if self.switch(*time, state, true)? {
+            self.stand(*time, state, true)?;
         }
         self.account(before, *time, state);
-        self.read_all(&mut hybrid, *time, state, |watch, reading| {
-            watch.begin(reading);
-        })?;
-        self.hybrid = Some(hybrid);
+        self.read_all(*time, state, |watch, reading| watch.begin(reading))?;
         if done.stops {
             self.log.stop();
         }
@@ -71,113 +69,103 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         &mut self,
         (time, state): &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
-        let Some(mut hybrid) = self.hybrid.take() else {
+        if self.hybrid.is_empty || *time >= self.hybrid.end {
             return Ok(());
-        };
-        if *time < hybrid.end {
-            let before = self.monitor.is_some().then(|| self.energies(*time, state));
-            let done = self.call(&mut hybrid, Called::Controllers, *time, state)?;
-            if done.changed {
-                self.switch(&mut hybrid, *time, state, true)?;
-            }
-            self.account(before, *time, state);
-            if done.stops {
-                self.log.stop();
-            }
         }
-        self.hybrid = Some(hybrid);
+        let before = self.monitor.is_some().then(|| self.energies(*time, state));
+        let done = self.call(Called::Controllers, *time, state)?;
+        if done.changed {
+            self.switch(*time, state, true)?;
+        }
+        self.account(before, *time, state);
+        if done.stops {
+            self.log.stop();
+        }
         Ok(())
     }
 
     /// Reports an event that was found, calls its handler and the controllers of the instant that
     /// was reached. The state is the one with which the run goes on.
     pub(crate) fn happen(&mut self, last_good: &mut (S, M::State<S>)) -> Result<(), Fault> {
-        let Some(mut hybrid) = self.hybrid.take() else {
+        if self.hybrid.is_empty {
             return Ok(());
-        };
-        let is_found = core::mem::take(&mut hybrid.is_found);
+        }
+        let is_found = core::mem::take(&mut self.hybrid.is_found);
         if is_found && self.log.unseen > 0 {
             self.schedule.at(last_good.0, 0);
             self.show(last_good.0, &last_good.1);
         }
-        let mut done = Done {
-            moved: false,
-            changed: false,
-            stops: self.log.flow.is_break(),
-        };
-        if !done.stops {
-            let is_turned = self.turn(&mut hybrid, last_good.0, &last_good.1)?;
-            if is_turned {
-                self.stand(&mut hybrid, last_good.0, &last_good.1, false)?;
-                let unseen = self.log.unseen;
-                if unseen > 0 && self.schedule.at(last_good.0, unseen) {
-                    self.show(last_good.0, &last_good.1);
-                }
-            }
-            done = self.act(&mut hybrid, is_found || is_turned, last_good)?;
-            if done.moved || hybrid.is_switched || done.stops && self.log.unseen > 0 {
+        if self.log.flow.is_break() {
+            return Ok(());
+        }
+        let is_turned = self.turn(last_good.0, &last_good.1)?;
+        if is_turned {
+            self.stand(last_good.0, &last_good.1, false)?;
+            let unseen = self.log.unseen;
+            if unseen > 0 && self.schedule.at(last_good.0, unseen) {
                 self.show(last_good.0, &last_good.1);
             }
+        }
+        let done = self.act(is_found || is_turned, last_good)?;
+        if done.moved || self.hybrid.is_switched || done.stops && self.log.unseen > 0 {
+            self.show(last_good.0, &last_good.1);
         }
         if done.stops {
             self.log.stop();
         }
-        self.hybrid = Some(hybrid);
         Ok(())
     }
 
-    fn act(
-        &mut self,
-        hybrid: &mut Hybrid<'_, S, M>,
-        is_found: bool,
-        (time, state): &mut (S, M::State<S>),
-    ) -> Result<Done, Fault> {
+    /// The phases of an instant, in their order: impulses and modes of interactions, handlers,
+    /// controllers, signs. Laws that have switched are turned before. After each phase that has
+    /// changed anything, sides of laws and modes of interactions are found anew.
+    fn act(&mut self, is_found: bool, (time, state): &mut (S, M::State<S>)) -> Result<Done, Fault> {
         let time = *time;
         let before = self.monitor.is_some().then(|| self.energies(time, state));
-        let mut done = Done {
-            moved: false,
-            changed: false,
-            stops: false,
-        };
         if is_found {
-            self.read_all(hybrid, time, state, |watch, reading| {
+            self.read_all(time, state, |watch, reading| {
                 watch.correct(reading.here, reading.round_off);
             })?;
         }
-        hybrid.is_switched = false;
-        done.moved = self.switch(hybrid, time, state, false)?;
+        self.hybrid.is_switched = false;
+        let mut done = Done {
+            moved: self.switch(time, state, false)?,
+            changed: false,
+            stops: false,
+        };
         if done.moved {
-            self.stand(hybrid, time, state, true)?;
+            self.stand(time, state, true)?;
         }
         if is_found {
-            let handled = self.call_handlers(hybrid, time, state)?;
-            if handled.changed {
-                self.stand(hybrid, time, state, handled.moved)?;
-                if self.switch(hybrid, time, state, true)? {
-                    self.stand(hybrid, time, state, true)?;
-                }
-            }
+            let handled = self.call_handlers(time, state)?;
+            self.follow(&handled, time, state)?;
             done.moved |= handled.moved;
             done.stops = handled.stops;
         }
-        if !done.stops && time < hybrid.end {
-            let controlled = self.call(hybrid, Called::Controllers, time, state)?;
-            if controlled.changed {
-                self.stand(hybrid, time, state, controlled.moved)?;
-                if self.switch(hybrid, time, state, true)? {
-                    self.stand(hybrid, time, state, true)?;
-                }
-            }
+        if !done.stops && time < self.hybrid.end {
+            let controlled = self.call(Called::Controllers, time, state)?;
+            self.follow(&controlled, time, state)?;
             done.stops = controlled.stops;
         }
         if is_found {
-            hybrid.is_fresh = true;
-            self.read_all(hybrid, time, state, |watch, reading| {
+            self.hybrid.is_fresh = true;
+            self.read_all(time, state, |watch, reading| {
                 watch.settle(reading, done.moved);
             })?;
         }
         self.account(before, time, state);
         Ok(done)
+    }
+
+    /// Finds sides of laws and modes of interactions anew where something has changed.
+    fn follow(&mut self, done: &Done, time: S, state: &mut M::State<S>) -> Result<(), Fault> {
+        if done.changed {
+            self.stand(time, state, done.moved)?;
+            if self.switch(time, state, true)? {
+                self.stand(time, state, true)?;
+            }
+        }
+        Ok(())
     }
 
     /// Tells the monitor what energy (J) an instant has put in, if it was known before.
@@ -196,12 +184,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
 
     /// Calls the handlers of all events that were found, in the order in which these pass their
     /// zeros, and of those that do at once in the order in which they were given.
-    fn call_handlers(
-        &mut self,
-        hybrid: &mut Hybrid<'_, S, M>,
-        time: S,
-        state: &mut M::State<S>,
-    ) -> Result<Done, Fault> {
+    fn call_handlers(&mut self, time: S, state: &mut M::State<S>) -> Result<Done, Fault> {
         let mut done = Done {
             moved: false,
             changed: false,
@@ -210,7 +193,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         let mut handled: Option<S> = None;
         loop {
             let mut next: Option<S> = None;
-            hybrid.list.each(&mut |happening| {
+            self.hybrid.list.each(&mut |happening| {
                 let root = happening.watch().and_then(|watch| watch.root());
                 let root = root.filter(|&root| handled.is_none_or(|handled| root > handled));
                 next = match next.zip(root) {
@@ -222,7 +205,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             let Some(root) = next else {
                 return Ok(done);
             };
-            let now = self.call(hybrid, Called::Handlers(root), time, state)?;
+            let now = self.call(Called::Handlers(root), time, state)?;
             done.moved |= now.moved;
             done.changed |= now.changed;
             done.stops |= now.stops;
@@ -231,13 +214,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     }
 
     /// Calls what is due at a time, one after the other: each sees what the former have done.
-    fn call(
-        &mut self,
-        hybrid: &mut Hybrid<'_, S, M>,
-        called: Called<S>,
-        time: S,
-        state: &mut M::State<S>,
-    ) -> Result<Done, Fault> {
+    fn call(&mut self, called: Called<S>, time: S, state: &mut M::State<S>) -> Result<Done, Fault> {
         let mut done = Done {
             moved: false,
             changed: false,
@@ -250,7 +227,8 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             accepts_any_state,
             end,
             ..
-        } = hybrid;
+        } = &mut self.hybrid;
+        let march = &mut *self.march;
         list.each(&mut |happening: &mut dyn Happening<S, M>| {
             let name = match called {
                 Called::Handlers(root) => happening
@@ -265,26 +243,31 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             let Some(name) = name else {
                 return Ok(());
             };
-            let equations = self.march.equations();
+            let equations = march.equations();
             let view = View::new(equations.constants(), time, state);
             let sample = Sample::new(view, equations);
             let mut event = Event::new(sample, name, equations.parameters(), *inputs);
             let flow = happening.act(&mut event)?;
             let (next, held, parameters) = (event.state, event.inputs, event.parameters);
             if let Some(parameters) = parameters {
-                let equations = self.march.equations_mut();
+                let equations = march.equations_mut();
                 equations.take_parameters(parameters)?;
                 equations.renew_limits()?;
                 *taken = Some(parameters);
             }
             if held != *inputs || parameters.is_some() {
-                self.march.equations_mut().set_inputs(&held)?;
+                march.equations_mut().set_inputs(&held)?;
                 *inputs = held;
                 done.changed = true;
             }
             if next != *state {
                 let duration = *end - time;
-                let checked = self.checked(time, duration, next, *accepts_any_state);
+                let checked = checked(
+                    march.equations(),
+                    (time, duration),
+                    next,
+                    *accepts_any_state,
+                );
                 *state = checked.map_err(|fault| after_handler(name, fault))?;
                 done.moved = true;
             }
@@ -296,37 +279,18 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         Ok(done)
     }
 
-    /// A state that a handler has set, as a start is checked.
-    fn checked(
-        &self,
-        time: S,
-        duration: S,
-        mut state: M::State<S>,
-        accepts_any: bool,
-    ) -> Result<M::State<S>, Fault> {
-        let equations = self.march.equations();
-        let (constants, is_relative) = (equations.constants(), equations.is_relative());
-        check_state::<S, M>(&state)?;
-        M::rewrap(constants, &mut state);
-        if !accepts_any || is_relative {
-            check_start::<S, M>(constants, (time, duration), &state, is_relative)?;
-        }
-        Ok(state)
-    }
-
     fn read_all(
-        &self,
-        hybrid: &mut Hybrid<'_, S, M>,
+        &mut self,
         time: S,
         state: &M::State<S>,
         mut take: impl FnMut(&mut Watch<S>, Reading<S>),
     ) -> Result<(), Fault> {
-        let ahead = self.ahead(hybrid, time, state);
+        let ahead = self.ahead(time, state);
         let equations = self.march.equations();
         let constants = equations.constants();
         let shaken = |way| shaken::<S, M>(constants, time, state, way);
         let beside = [shaken(1.0), shaken(-1.0)];
-        hybrid.list.each(&mut |happening| {
+        self.hybrid.list.each(&mut |happening| {
             if happening.watch().is_none() {
                 return Ok(());
             }
@@ -348,11 +312,10 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     }
 
     /// A little ahead on the way of the motion, as far as velocities and rates of states lead.
-    fn ahead(&self, hybrid: &Hybrid<'_, S, M>, time: S, state: &M::State<S>) -> (S, M::State<S>) {
-        let left = hybrid.end - time;
-        let mut step = left;
-        if hybrid.longest > S::zero() {
-            step = step.min(hybrid.longest);
+    fn ahead(&self, time: S, state: &M::State<S>) -> (S, M::State<S>) {
+        let mut step = self.hybrid.end - time;
+        if self.hybrid.longest > S::zero() {
+            step = step.min(self.hybrid.longest);
         }
         let constants = self.march.equations().constants();
         let mut rates = M::coordinate_rates(constants, state);
@@ -364,6 +327,22 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         }
         (time + step, state.plus([(step, &rates)]))
     }
+}
+
+/// A state that a handler has set, as a start of a run over a duration (s) is checked.
+fn checked<S: Real, M: Mechanism>(
+    equations: &dyn Equations<S, M>,
+    at: (S, S),
+    mut state: M::State<S>,
+    accepts_any: bool,
+) -> Result<M::State<S>, Fault> {
+    let (constants, is_relative) = (equations.constants(), equations.is_relative());
+    check_state::<S, M>(&state)?;
+    M::rewrap(constants, &mut state);
+    if !accepts_any || is_relative {
+        check_start::<S, M>(constants, at, &state, is_relative)?;
+    }
+    Ok(state)
 }
 
 /// The fault of a state as that of the handler which has set it.

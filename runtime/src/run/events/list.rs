@@ -161,6 +161,8 @@ where
 
 /// What happens in a run under way.
 pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
+    /// Whether nothing can happen.
+    pub(crate) is_empty: bool,
     pub(crate) list: &'h mut (dyn Happenings<S, M> + 'h),
     /// Inputs that are held.
     pub(super) inputs: M::Inputs<S>,
@@ -237,6 +239,7 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             Ok(())
         })?;
         Ok(Self {
+            is_empty: false,
             list,
             inputs: M::inputs_of(given),
             given: *given,

@@ -4,7 +4,6 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::status::Tracked;
-use crate::run::events::list::Hybrid;
 use crate::run::segments::Run;
 
 impl<S: Real, M: Mechanism> Run<'_, S, M> {
@@ -21,14 +20,13 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// where a handler may have.
     #[inline(always)]
     pub(crate) fn switch(
-        &self,
-        hybrid: &mut Hybrid<'_, S, M>,
+        &mut self,
         time: S,
         bodies: &mut M::State<S>,
         moved: bool,
     ) -> Result<bool, Fault> {
         if self.settings.interacts {
-            self.switch_modes(hybrid, time, bodies, moved)
+            self.switch_modes(time, bodies, moved)
         } else {
             Ok(false)
         }
@@ -36,13 +34,12 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
 
     #[inline(never)]
     fn switch_modes(
-        &self,
-        hybrid: &mut Hybrid<'_, S, M>,
+        &mut self,
         time: S,
         bodies: &mut M::State<S>,
         moved: bool,
     ) -> Result<bool, Fault> {
-        let equations = self.march.equations();
+        let (equations, hybrid) = (self.march.equations(), &mut self.hybrid);
         let list = equations.interactions();
         hybrid.changes.count(time, hybrid.longest, list)?;
         *bodies = equations.strike(time, bodies, moved)?;

@@ -9,11 +9,8 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
 use crate::run::events::instants::Instants;
-use crate::run::events::list::Hybrid;
 use crate::run::events::sizes::rate;
-use crate::run::events::switching::{
-    Switching, digits_of, of, put, readings_of, sliding, undecided,
-};
+use crate::run::events::switching::{digits_of, of, put, readings_of, sliding, undecided};
 use crate::run::segments::Run;
 use crate::state::vector::Array as _;
 use crate::stepping::watch::is_same;
@@ -35,12 +32,8 @@ const ROUNDS: usize = 8;
 impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Whether the integration begins anew because a law has switched. Turns the sides of those
     /// whose zeros were found, in a state as it was corrected.
-    pub(super) fn turn(
-        &mut self,
-        hybrid: &mut Hybrid<'_, S, M>,
-        time: S,
-        state: &M::State<S>,
-    ) -> Result<bool, Fault> {
+    pub(super) fn turn(&mut self, time: S, state: &M::State<S>) -> Result<bool, Fault> {
+        let hybrid = &mut self.hybrid;
         let Some(switching) = &mut hybrid.switching else {
             return Ok(false);
         };
@@ -73,7 +66,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         }
         if is_found || is_due {
             hybrid.is_fresh = true;
-            self.hold(hybrid);
+            self.hold();
         }
         Ok(is_found || is_due)
     }
@@ -82,21 +75,20 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// found at its zero keeps the side that it has been turned to, unless the state was moved.
     pub(super) fn stand(
         &mut self,
-        hybrid: &mut Hybrid<'_, S, M>,
         time: S,
         state: &M::State<S>,
         is_moved: bool,
     ) -> Result<(), Fault> {
-        if hybrid.switching.is_none() {
+        if self.hybrid.switching.is_none() {
             return Ok(());
         }
         let mut is_new = is_moved;
         // What an expression holds stands before it, so that a round is enough for most.
         for _ in 0..M::SWITCHES.len() + ROUNDS {
-            self.hold(hybrid);
-            if !self.stand_once(hybrid, time, state, is_new)? {
-                hybrid.is_fresh = true;
-                self.hold(hybrid);
+            self.hold();
+            if !self.stand_once(time, state, is_new)? {
+                self.hybrid.is_fresh = true;
+                self.hold();
                 return Ok(());
             }
             is_new = false;
@@ -107,22 +99,16 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     }
 
     /// Whether a side was changed.
-    fn stand_once(
-        &mut self,
-        hybrid: &mut Hybrid<'_, S, M>,
-        time: S,
-        state: &M::State<S>,
-        is_moved: bool,
-    ) -> Result<bool, Fault> {
-        let bounds = [hybrid.end - time, hybrid.longest];
-        let end = hybrid.end.to_f64();
-        let Some(switching) = &mut hybrid.switching else {
-            return Ok(false);
-        };
+    fn stand_once(&mut self, time: S, state: &M::State<S>, is_moved: bool) -> Result<bool, Fault> {
+        let bounds = [self.hybrid.end - time, self.hybrid.longest];
+        let end = self.hybrid.end.to_f64();
         let mut is_changed = false;
         // Until a side is changed, which others may hold.
         let (mut known_instants, mut known_readings) = (None, None);
         for switch in M::SWITCHES {
+            let Some(switching) = &self.hybrid.switching else {
+                return Ok(false);
+            };
             let mut watch = switching.watch(switch);
             let before = watch.side();
             if switch.is_of_time {
@@ -168,7 +154,9 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
                 self.march.equations_mut().hold(switch, watch.side());
                 (known_instants, known_readings) = (None, None);
             }
-            switching.keep(switch, &watch);
+            if let Some(switching) = &mut self.hybrid.switching {
+                switching.keep(switch, &watch);
+            }
         }
         Ok(is_changed)
     }
@@ -267,8 +255,8 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     }
 
     /// The sides as they are kept.
-    pub(crate) fn hold(&mut self, hybrid: &Hybrid<'_, S, M>) {
-        if let Some(switching) = &hybrid.switching {
+    pub(crate) fn hold(&mut self) {
+        if let Some(switching) = &self.hybrid.switching {
             for switch in M::SWITCHES {
                 self.march
                     .equations_mut()
@@ -283,23 +271,9 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         if !M::SWITCHES.iter().any(|switch| switch.is_of_time) {
             return Ok(until);
         }
-        let Some(mut hybrid) = self.hybrid.take() else {
+        let Some(switching) = &mut self.hybrid.switching else {
             return Ok(until);
         };
-        let found = match &mut hybrid.switching {
-            Some(switching) => self.next_instant(switching, from, until),
-            None => Ok(until),
-        };
-        self.hybrid = Some(hybrid);
-        found
-    }
-
-    fn next_instant(
-        &mut self,
-        switching: &mut Switching<S, M>,
-        from: S,
-        until: S,
-    ) -> Result<S, Fault> {
         'anew: for _ in 0..M::SWITCHES.len() + ROUNDS {
             let instants = Instants::<M>::new(self.march.equations().parameters());
             let (mut next, mut due) = (until, M::Parameters::<S>::zeros());

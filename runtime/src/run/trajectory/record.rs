@@ -48,7 +48,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         (end, at_end): (S, Option<&M::State<S>>),
         &(start, ref from): &(S, M::State<S>),
     ) -> Result<bool, Fault> {
-        if !self.hybrid.as_ref().is_some_and(|hybrid| hybrid.records) {
+        if !self.hybrid.records {
             return Ok(false);
         }
         if end <= start {
@@ -112,8 +112,8 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     }
 
     fn each_record(&mut self, visit: &mut dyn FnMut(&mut Trajectory<M, S>)) {
-        if let Some(hybrid) = self.hybrid.as_mut().filter(|hybrid| hybrid.records) {
-            let _ = hybrid.list.each(&mut |happening| {
+        if self.hybrid.records {
+            let _ = self.hybrid.list.each(&mut |happening| {
                 happening.record(visit);
                 Ok(())
             });
