@@ -194,8 +194,8 @@ pub enum Fault {
     /// [`GeneralizedAlpha`](crate::GeneralizedAlpha) does not move a mechanism with
     /// [`Interaction`](crate::run::Interaction)s.
     NoInteractions,
-    /// A run with events or controllers, or one that goes on from a checkpoint, was to be
-    /// [`verified`](crate::Simulation::verified).
+    /// A run with handlers, controllers, checkpoints or a trajectory was to be
+    /// [`verified`](crate::Simulation::verified): what closures do cannot be done twice.
     NotVerified,
     /// A trajectory does not know the time that it is asked for.
     OutsideTrajectory {

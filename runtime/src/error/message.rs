@@ -190,8 +190,8 @@ impl fmt::Display for Fault {
             | Self::NoInteractions => interactions::say(self, f),
             Self::NotVerified => write!(
                 f,
-                "a run with events, controllers, checkpoints, laws that switch, limits or other interactions has no companion that `verified()` could compare it with; compare with a second run of \
-                 another tolerance or step"
+                "a run with handlers, controllers, checkpoints or a trajectory has no companion that `verified()` could compare it with, for closures cannot be called twice; compare with a second \
+                 run of another tolerance or step"
             ),
             Self::SlidingLaw { .. }
             | Self::OnSwitch { .. }

@@ -4,11 +4,11 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::fastest;
+use crate::run::driver::Driver;
 use crate::run::post_step::PostStabilisation;
-use crate::run::segments::Run;
 use crate::stepping::branching::closed;
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Whether the last step has ended near to a singular configuration that the motion passes.
     #[inline]
     pub(crate) fn is_near_to_branches(&self) -> bool {
@@ -33,6 +33,18 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
                 let constants = self.march.equations().constants();
                 Ok(closed::<S, M>(constants, time, &reached))
             }
+        }
+    }
+
+    /// A state within a step, after its stabilisation if there is one.
+    pub(crate) fn stabilised_if(
+        &mut self,
+        time: S,
+        reached: M::State<S>,
+    ) -> Result<M::State<S>, Fault> {
+        match self.stabilisation {
+            Some(stabilisation) => self.stabilised(stabilisation, time, reached),
+            None => Ok(reached),
         }
     }
 

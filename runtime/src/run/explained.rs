@@ -5,10 +5,10 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::fastest;
+use crate::run::driver::Driver;
 use crate::run::passages::LENGTH;
-use crate::run::segments::Run;
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// A fault with what the run knows of its cause.
     #[cold]
     pub(super) fn explained(&self, fault: Fault, last_good: (S, M::State<S>)) -> Fault {

@@ -62,8 +62,6 @@ where
     ///   limits cannot be followed.
     /// - [`Fault::NoInteractions`](crate::Fault::NoInteractions) with
     ///   [`GeneralizedAlpha`](crate::GeneralizedAlpha).
-    /// - [`Fault::NotVerified`](crate::Fault::NotVerified) of a run that is to be
-    ///   [`Simulation::verified`].
     #[must_use]
     pub fn interactions<const K: usize, const ALL: usize>(
         self,

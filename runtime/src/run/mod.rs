@@ -36,8 +36,10 @@ pub(crate) mod companion;
 mod corrected;
 pub(crate) mod dense_step;
 pub(crate) mod direct;
+pub(crate) mod driver;
 pub(crate) mod events;
 mod explained;
+mod instant;
 pub(crate) mod interactions;
 pub(crate) mod kinematics;
 pub(crate) mod output;
@@ -60,6 +62,7 @@ pub(crate) mod stepper;
 mod taken;
 #[cfg(feature = "std")]
 pub(crate) mod trajectory;
+pub(crate) mod verification;
 pub(crate) mod within;
 #[cfg(feature = "serde")]
 mod written;
@@ -73,7 +76,6 @@ pub use crate::nonsmooth::status::{Impact, InteractionMode};
 pub use crate::stepping::watch::Crossing;
 #[cfg(feature = "std")]
 pub use checkpoint::Checkpoint;
-pub use companion::{BodyError, Verification};
 pub use dense_step::DenseStep;
 pub use events::context::Event;
 pub use events::list::{Happenings, NothingHappens};
@@ -87,3 +89,4 @@ pub use simulate::Simulate;
 pub use stepper::{InteractingStepper, Steps};
 #[cfg(feature = "std")]
 pub use trajectory::Trajectory;
+pub use verification::{BodyError, Verification};

@@ -207,6 +207,15 @@ impl<S: Real> Schedule<S> {
         }
     }
 
+    /// The same where it is not known how many reports are done.
+    pub(crate) fn first_after(&self, from: S) -> S {
+        let Some(dt) = self.reporting.interval() else {
+            return self.end - from;
+        };
+        let done = (from - self.start + round_off(from)).quotient(dt);
+        self.after(done.to_f64() as usize).first(from)
+    }
+
     /// The next time to report, if it lies before `reached`, which is the end of a step.
     pub(crate) fn within(&mut self, reached: S) -> Option<S> {
         let next = self.next()?;

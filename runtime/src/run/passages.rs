@@ -5,11 +5,11 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::math::vec3::minus;
 use crate::mechanism::kernels::Mechanism;
+use crate::run::driver::Driver;
 use crate::run::passing::{ACROSS, CLOSE, dot, judged};
-use crate::run::segments::Run;
 use crate::state::vector::{Array, StateParts as _, Vector as _};
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Whether the last step is taken, which began at a time where the bodies stood near by: no
     /// direction of a force has turned round in it.
     #[inline]
@@ -128,7 +128,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         let rates = M::State::from_parts(rates, Array::zeros());
         *state = state.plus([(end - *time, &rates)]);
         *time = end;
-        self.log.unseen += 1;
+        self.unseen += 1;
         let counted = self.passing.count(end, self.passing.place);
         counted.map_err(|place| holds::<S, M>(place, end))?;
         Ok(true)

@@ -7,7 +7,7 @@ use crate::error::SimulationError;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::{Monitor, Warnings};
-use crate::run::companion::Verification;
+use crate::run::verification::Verification;
 
 /// What a run came to, and whether it can be trusted.
 #[non_exhaustive]

@@ -5,6 +5,7 @@ use crate::error::{CheckpointFault, Fault};
 use crate::integrate::{Memory, TimeSpan};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
+use crate::run::driver::{Begun, Driver};
 use crate::run::past::{Past, PastSegment};
 use crate::run::segments::Run;
 use crate::state::vector::Array;
@@ -44,26 +45,46 @@ pub(crate) fn take_values<S: Real, M: Mechanism>(
 }
 
 impl<S: Real, M: Mechanism> Run<'_, S, M> {
-    /// Takes over what was counted, and what events, interactions and the monitor remember.
-    pub(crate) fn take_past(&mut self, past: &Past<'_, S, M>) -> Result<(), Fault> {
-        self.begin_interactions()?;
-        if !past.events.read(|memory| self.remember_between(memory)) {
+    /// Takes over what was counted, and what events, interactions and the monitor remember; where
+    /// (s) the integration goes on.
+    pub(crate) fn take_past(
+        &mut self,
+        past: &Past<'_, S, M>,
+        last_good: &mut (S, M::State<S>),
+    ) -> Result<S, Fault> {
+        let remembered = self.remember(past);
+        remembered.map_err(|fault| self.driver.explained(fault, *last_good))?;
+        if let Some(segment) = &past.segment {
+            return Ok(segment.start);
+        }
+        if self.driver.go_on_with_events(last_good)? {
+            self.log.stop();
+        }
+        Ok(last_good.0)
+    }
+
+    fn remember(&mut self, past: &Past<'_, S, M>) -> Result<(), Fault> {
+        self.driver.begin_interactions()?;
+        if !past
+            .events
+            .read(|memory| self.driver.remember_between(memory))
+        {
             return Err(refused(CheckpointFault::Happenings));
         }
-        self.hold();
+        self.driver.hold();
         let progress = &past.progress;
-        self.steps = progress.steps;
-        self.counts = progress.counts;
-        self.log.unseen = progress.unseen;
+        self.driver.steps = progress.steps;
+        self.driver.counts = progress.counts;
+        self.driver.unseen = progress.unseen;
         self.log.worst_violation = progress.worst_violation;
         let (time, state) = &past.at;
         #[cfg(feature = "std")]
         self.begin_records(*time, false);
         if past.segment.is_none() {
-            self.check_rates(Some((*time, state)), past)?;
+            self.driver.check_rates(Some((*time, state)), past)?;
         }
-        let equations = self.march.equations_mut();
-        if let Some(monitor) = &mut self.monitor {
+        let equations = self.driver.march.equations_mut();
+        if let Some(monitor) = &mut self.driver.monitor {
             match past.monitor {
                 Some((kept, seen)) => {
                     *monitor = *kept;
@@ -76,6 +97,49 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         Ok(())
     }
 
+    /// Makes an integration that is begun anew the one that was under way.
+    pub(crate) fn go_on(
+        &mut self,
+        span: TimeSpan<S>,
+        segment: &PastSegment<'_, S>,
+        past: &Past<'_, S, M>,
+    ) -> Result<Begun<S>, Fault> {
+        if !self.driver.march.start_again(span, segment.state)? {
+            return Err(refused(CheckpointFault::Memory));
+        }
+        let mut is_kept = false;
+        let is_whole =
+            { segment.memory }.read(|memory| is_kept = self.driver.march.remember(memory));
+        if !is_kept {
+            return Err(refused(CheckpointFault::Forgetful));
+        }
+        let (time, state) = &past.at;
+        if !is_whole || self.driver.march.time() != *time {
+            return Err(refused(CheckpointFault::Memory));
+        }
+        let seen = self.driver.march.equations().seen();
+        self.driver.check_rates(None, past)?;
+        if let Some(monitor) = &mut self.driver.monitor {
+            if past.monitor.is_none() {
+                monitor.restart();
+                self.driver.march.monitor_end(monitor, state, None);
+            } else {
+                self.driver.march.equations_mut().recall(seen);
+            }
+        }
+        let iterations = past.progress.iterations;
+        self.driver
+            .march
+            .equations_mut()
+            .recall_iterations(iterations);
+        Ok(Begun {
+            start: segment.start,
+            of_monitor: segment.of_monitor,
+        })
+    }
+}
+
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Hands over what is remembered between two steps, besides the integration and the monitor.
     pub(crate) fn remember_between(&mut self, memory: &mut Memory<'_, S>) {
         if !self.hybrid.is_empty {
@@ -86,40 +150,6 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             }
         }
         self.march.remember_branches(memory);
-    }
-
-    /// Makes an integration that is begun anew the one that was under way.
-    pub(crate) fn go_on(
-        &mut self,
-        span: TimeSpan<S>,
-        segment: &PastSegment<'_, S>,
-        past: &Past<'_, S, M>,
-    ) -> Result<(), Fault> {
-        if !self.march.start_again(span, segment.state)? {
-            return Err(refused(CheckpointFault::Memory));
-        }
-        let mut is_kept = false;
-        let is_whole = { segment.memory }.read(|memory| is_kept = self.march.remember(memory));
-        if !is_kept {
-            return Err(refused(CheckpointFault::Forgetful));
-        }
-        let (time, state) = &past.at;
-        if !is_whole || self.march.time() != *time {
-            return Err(refused(CheckpointFault::Memory));
-        }
-        let seen = self.march.equations().seen();
-        self.check_rates(None, past)?;
-        if let Some(monitor) = &mut self.monitor {
-            if past.monitor.is_none() {
-                monitor.restart();
-                self.march.monitor_end(monitor, state, None);
-            } else {
-                self.march.equations_mut().recall(seen);
-            }
-        }
-        let iterations = past.progress.iterations;
-        self.march.equations_mut().recall_iterations(iterations);
-        Ok(())
     }
 
     /// Refuses a checkpoint of other rates than those at hand: at the end of the last step, or of

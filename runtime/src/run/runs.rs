@@ -8,7 +8,7 @@ use crate::constraints::row_units::characteristic_length;
 use crate::dynamics::{Dynamics, Problem};
 use crate::error::Fault;
 use crate::formulation::Formulation;
-use crate::integrate::{Counts, Integrator, Method};
+use crate::integrate::{Integrator, Method};
 use crate::math::scalar::Real;
 use crate::measure::interacting::Heeding;
 use crate::measure::load::{AppliedForces, NoForces};
@@ -18,10 +18,10 @@ use crate::mechanism::limits::Several as _;
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Monitor;
 use crate::run::companion::Companion;
+use crate::run::driver::Driver;
 use crate::run::events::list::{Happenings, Hybrid, NothingHappens};
 use crate::run::events::switching::Switching;
 use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
-use crate::run::passing::Passing;
 use crate::run::past::{Past, Plan, Planned};
 use crate::run::post_step::PostStabilisation;
 use crate::run::report::{RunReport, RunResult};
@@ -31,10 +31,12 @@ use crate::run::segments::{Log, Observer, Run};
 use crate::run::simulation::{Setup, Simulation, Source};
 use crate::state::vector::{Array, StateParts};
 use crate::stepping::march::March;
-use crate::stepping::marching::Marching as _;
 
 /// The interval (s) of a run, when it reports, and where it goes on.
 type ToDo<'p, S, M> = ((S, S), Reporting<S>, Option<&'p Past<'p, S, M>>);
+
+/// The integration of a companion.
+type Beside<'f, S, M, F, A, C, I> = March<S, M, F, Heeding<S, M, &'f A>, C, I>;
 
 impl<S, M, F, I, A, C> Simulation<'_, Problem<S, M, F, A, C>, I, NothingHappens>
 where
@@ -199,19 +201,13 @@ where
             || (start, self.initial.unwrap_or_else(described)),
             |past| past.at,
         );
-        check_interval(start, end)?;
-        check_interval(last_good.0, end)?;
-        if let Some(instant) = self.breaks.iter().find(|instant| !instant.is_finite()) {
-            return Err(Fault::BreakNotFinite {
-                instant: instant.to_f64(),
-            });
-        }
+        self.check_times([start, last_good.0, end])?;
         let schedule = Schedule::new(start, end, reporting)?;
         let schedule = schedule.after(past.map_or(0, |past| past.progress.reports));
         // Laws that switch and interactions make events of their own.
         let has_own = !M::SWITCHES.is_empty() || A::Tracked::COUNT > 0;
         let is_empty = happenings.is_none() && !has_own;
-        if self.is_verified && !is_empty {
+        if self.is_verified && happenings.is_some() {
             return Err(Fault::NotVerified);
         }
         let mut nothing = NothingHappens;
@@ -236,38 +232,64 @@ where
                 .over(integrator)
                 .decaying(self.formulation.decay_rate())
         });
+        let projection = self.projection.as_ref();
+        let projection = projection.map(|projection| projection as &dyn PostStabilisation<S, M>);
+        let stabilisation = self.stabilisation.or(projection);
         let beside = integrator.companion(end - start);
-        let mut beside = match beside.filter(|_| self.is_verified) {
-            Some(integrator) => {
-                let formulation = self.formulation.companion();
-                let dynamics = Dynamics::of_parameters(given, formulation)?;
-                let forces = Heeding::new(&self.forces, &given);
-                let dynamics = dynamics.with_forces(forces).coordinates::<C>();
-                Some(March::new(dynamics, integrator))
+        let beside = beside.filter(|_| self.is_verified);
+        let mut beside = beside
+            .map(|method| self.beside(method, given))
+            .transpose()?;
+        let (mut nothing, has_sides) = (NothingHappens, !M::SWITCHES.is_empty());
+        let mut sides = (self.is_verified && has_sides).then(Switching::new);
+        let companion = match &mut beside {
+            Some(march) => {
+                let mut hybrid = Hybrid::new(&mut nothing, &given, true, (start, end))?;
+                hybrid.is_empty = is_empty;
+                hybrid.switching = sides.as_mut();
+                let driver = Driver::new(march, integrator, hybrid);
+                let driver = driver.stabilised_by(stabilisation, self.breaks);
+                Some(Companion::new(driver, schedule, (start, &state)))
             }
             None => None,
         };
         let mut march = March::new(dynamics, *integrator);
-        let projection = self.projection.as_ref();
-        let projection = projection.map(|projection| projection as &dyn PostStabilisation<S, M>);
+        let driver = Driver::new(&mut march, integrator, hybrid);
+        let mut driver = driver.stabilised_by(stabilisation, self.breaks);
+        driver.monitor = monitor;
         let run = Run {
-            settings: march.settings(),
-            march: &mut march,
-            companion: beside
-                .as_mut()
-                .map(|march| Companion::new(march, (start, &state))),
-            stabilisation: self.stabilisation.or(projection),
+            companion,
             schedule,
-            breaks: self.breaks,
-            monitor,
             log: Log::new(observe),
-            hybrid,
-            passing: Passing::by(integrator),
-            steps: 0,
-            counts: Counts::default(),
-            gone: None,
+            driver,
         };
         run.go((start, end), last_good, past)
+    }
+
+    /// Refuses times that are not in their order, and breaks that are no times.
+    fn check_times(&self, [start, reached, end]: [S; 3]) -> Result<(), Fault> {
+        check_interval(start, end)?;
+        check_interval(reached, end)?;
+        match self.breaks.iter().find(|instant| !instant.is_finite()) {
+            None => Ok(()),
+            Some(instant) => Err(Fault::BreakNotFinite {
+                instant: instant.to_f64(),
+            }),
+        }
+    }
+
+    /// What a companion integrates, by its own method, from the same parameters on.
+    fn beside<'f>(
+        &'f self,
+        integrator: I,
+        given: M::Parameters<S>,
+    ) -> Result<Beside<'f, S, M, F, A, C, I>, Fault>
+    where
+        I: Runs<S, M, F, C, A>,
+    {
+        let dynamics = Dynamics::of_parameters(given, self.formulation.companion())?;
+        let dynamics = dynamics.with_forces(Heeding::new(&self.forces, &given));
+        Ok(March::new(dynamics.coordinates::<C>(), integrator))
     }
 
     /// The start of a run over an interval (s) from a state, assembled where that is asked.

@@ -3,22 +3,23 @@
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::segments::{Run, Taken};
+use crate::run::driver::{Driver, Taken};
 use crate::run::within::look_within;
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
-    /// Takes a step, and looks into it for events and for the monitor. It is no longer than some
-    /// seconds. False of one that must be shorter.
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
+    /// Takes a step, and looks into it for events and for the monitor. There are so
+    /// many seconds left. False of one that must be shorter.
     #[inline]
-    pub(super) fn take(
+    pub(crate) fn take(
         &mut self,
         last_good: &mut (S, M::State<S>),
-        longest: S,
+        left: S,
         taken: &mut Taken<S, M>,
     ) -> Result<bool, Fault> {
         let advanced = match self.march.advance() {
             Ok(advanced) => advanced,
             Err(fault) => {
+                let longest = self.settings.fixed_step.map_or(left, |step| step.min(left));
                 let is_shortened = self.tries_again((last_good.0, &last_good.1), longest);
                 return if is_shortened { Ok(false) } else { Err(fault) };
             }

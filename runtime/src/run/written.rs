@@ -9,9 +9,9 @@ use crate::math::scalar::Real;
 use crate::measure::named_state::NamedState;
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::companion::Verification;
 use crate::run::kinematics::KinematicReport;
 use crate::run::report::RunReport;
+use crate::run::verification::Verification;
 
 /// The fields but `time` and `monitor`, with `warnings` behind them. `state` has the time, and is a
 /// [`NamedState`].

@@ -229,13 +229,6 @@ fn what_does_not_heed_them_refuses() {
     left_out(run.expect_err("it has none").fault);
     let along = along.without_limits();
     assert!(along.run(0.0..=0.1, every(0.1), |_| ()).is_ok());
-    let verified = shaft
-        .simulation(StandardLagrange, Rk4::every(0.01))
-        .verified();
-    let fault = verified.run(0.0..=0.1, every(0.1), |_| ());
-    assert_eq!(fault.expect_err("no companion").fault, Fault::NotVerified);
-    let verified = verified.without_limits();
-    assert!(verified.run(0.0..=0.1, every(0.1), |_| ()).is_ok());
 }
 
 #[test]

@@ -91,7 +91,7 @@ fn a_number_that_is_not_there_is_refused() {
 }
 
 #[test]
-fn generalized_alpha_and_companions_are_refused() {
+fn generalized_alpha_is_refused() {
     let (ball, rail) = (Ball::default(), Ball::HANDLES.rail.displacement());
     let friction = Interaction::friction(rail, 1.0);
     let run = ball
@@ -100,12 +100,6 @@ fn generalized_alpha_and_companions_are_refused() {
         .interactions([friction])
         .run(0.0..=1.0, every(0.1), |_| ());
     assert_eq!(run.expect_err("it is refused").fault, Fault::NoInteractions);
-    let run = ball
-        .simulation(StandardLagrange, DormandPrince::default())
-        .verified()
-        .interactions([friction])
-        .run(0.0..=1.0, every(0.1), |_| ());
-    assert_eq!(run.expect_err("it is refused").fault, Fault::NotVerified);
 }
 
 #[test]

@@ -15,6 +15,7 @@ mod steps;
 mod switched;
 mod told;
 mod turns;
+mod verified;
 
 use holonom::prelude::*;
 

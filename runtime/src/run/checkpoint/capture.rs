@@ -9,19 +9,20 @@ use super::{Checkpoint, Kept, Segment};
 use crate::error::{CheckpointFault, Fault};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
+use crate::run::driver::Begun;
 use crate::run::past::Progress;
-use crate::run::segments::{Begun, Run};
+use crate::run::segments::Run;
 
 impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Whether checkpoints are kept.
     pub(crate) fn keeps(&self) -> bool {
-        self.hybrid.keeps.is_some()
+        self.driver.hybrid.keeps.is_some()
     }
 
     /// Whether a checkpoint is to be kept after this step.
     pub(crate) fn keeps_now(&self) -> bool {
-        let steps = self.hybrid.keeps;
-        steps.is_some_and(|steps| self.steps.is_multiple_of(steps))
+        let steps = self.driver.hybrid.keeps;
+        steps.is_some_and(|steps| self.driver.steps.is_multiple_of(steps))
     }
 
     /// Hands a checkpoint to those whose turn it is; at the end of the run to all. `None` between
@@ -32,8 +33,8 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         &(time, ref state): &(S, M::State<S>),
     ) -> Result<(), Fault> {
         let checkpoint = self.checkpoint(under_way, (time, state))?;
-        let (steps, mut stops) = (self.steps, false);
-        let hybrid = &mut self.hybrid;
+        let (steps, mut stops) = (self.driver.steps, false);
+        let hybrid = &mut self.driver.hybrid;
         let is_end = time >= hybrid.end;
         hybrid.list.each(&mut |happening| {
             let is_due = |every: usize| is_end || steps.is_multiple_of(every);
@@ -54,11 +55,11 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         under_way: Option<&Begun<S>>,
         (time, state): (S, &M::State<S>),
     ) -> Result<Checkpoint<M, S>, Fault> {
-        let (given, taken) = (self.hybrid.given, self.hybrid.taken);
-        let mut warnings = self.hybrid.former.clone();
-        let equations = self.march.equations();
+        let (given, taken) = (self.driver.hybrid.given, self.driver.hybrid.taken);
+        let mut warnings = self.driver.hybrid.former.clone();
+        let equations = self.driver.march.equations();
         let (seen, iterations) = (equations.seen(), equations.iterations());
-        if let Some(mut monitor) = self.monitor {
+        if let Some(mut monitor) = self.driver.monitor {
             equations.name_smallest_pivot(&mut monitor);
             monitor.end(equations.constants(), time, state);
             let found = monitor.warnings().into_iter();
@@ -66,14 +67,15 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         }
         let mut rates = Vec::new();
         let between = under_way.is_none().then_some((time, state));
-        self.march
+        self.driver
+            .march
             .visit_rates(between, &mut |rate| rates.push(rate))?;
         let segment = under_way.map(|begun| self.segment_of(begun)).transpose()?;
-        let (events, ()) = Kept::of(|memory| self.remember_between(memory));
+        let (events, ()) = Kept::of(|memory| self.driver.remember_between(memory));
         let (interval, reporting, reports) = self.schedule.parts();
-        let equations = self.march.equations();
+        let equations = self.driver.march.equations();
         Ok(Checkpoint {
-            method: format!("{:?}", self.march.method()),
+            method: format!("{:?}", self.driver.march.method()),
             formulation: format!("{:?}", equations.formulation()),
             joints: equations.is_relative(),
             interval,
@@ -84,29 +86,31 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             taken,
             present: *equations.parameters(),
             progress: Progress {
-                steps: self.steps,
+                steps: self.driver.steps,
                 reports,
-                unseen: self.log.unseen,
-                counts: self.counts,
+                unseen: self.driver.unseen,
+                counts: self.driver.counts,
                 iterations,
                 worst_violation: self.log.worst_violation,
             },
             rates,
             segment,
             events,
-            monitor: self.monitor.map(|monitor| (monitor, seen)),
+            monitor: self.driver.monitor.map(|monitor| (monitor, seen)),
             warnings,
         })
     }
 
     /// The integration under way.
     fn segment_of(&mut self, begun: &Begun<S>) -> Result<Segment<S>, Fault> {
-        let (memory, is_kept) = Kept::of(|memory| self.march.remember(memory));
+        let (memory, is_kept) = Kept::of(|memory| self.driver.march.remember(memory));
         if !is_kept {
             return Err(Fault::Checkpoint(CheckpointFault::Forgetful));
         }
         let mut state = Vec::new();
-        self.march.visit_start(&mut |element| state.push(element));
+        self.driver
+            .march
+            .visit_start(&mut |element| state.push(element));
         Ok(Segment {
             start: begun.start,
             state,

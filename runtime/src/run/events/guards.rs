@@ -7,10 +7,10 @@ use crate::math::scalar::Real;
 use crate::measure::view::View;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
+use crate::run::driver::Driver;
 use crate::run::events::list::{Happening, Hybrid};
 use crate::run::events::switching::{Switching, of, readings_of, sliding, undecided};
 use crate::run::sample::Sample;
-use crate::run::segments::Run;
 use crate::stepping::guard::{Guard, Guards, Visit};
 use crate::stepping::interval::LastStep;
 use crate::stepping::modes::Modes;
@@ -24,7 +24,7 @@ const UNRESOLVED: f64 = 1e3;
 /// The time (s) and the state of an event.
 type Found<S, M> = Option<(S, <M as Mechanism>::State<S>)>;
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Whether an event may be found within a step.
     #[inline]
     pub(crate) fn looks_for_events(&self) -> bool {

@@ -10,23 +10,23 @@ use crate::measure::view::View;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
 use crate::nonsmooth::status::Tracked;
+use crate::run::driver::Driver;
 use crate::run::events::context::Event;
 use crate::run::events::list::{Happening, Hybrid};
 use crate::run::events::sizes::{ahead, rate, round_off, shaken};
 use crate::run::sample::Sample;
-use crate::run::segments::Run;
 use crate::state::vector::{Array, StateParts, Vector as _};
 use crate::stepping::watch::{Reading, Watch};
 
 /// What handlers and controllers have done at an instant.
 #[derive(Clone, Copy)]
-struct Done {
+pub(crate) struct Done {
     /// A handler has set the state.
-    moved: bool,
+    pub(crate) moved: bool,
     /// Or something else by which modes of interactions may change.
     changed: bool,
     /// A handler or a controller stops the run.
-    stops: bool,
+    pub(crate) stops: bool,
 }
 
 /// What is called at an instant.
@@ -38,14 +38,14 @@ enum Called<S> {
     Controllers,
 }
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
-    /// Calls controllers at the start, and takes the readings there.
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
+    /// Calls controllers at the start, and takes the readings there. Whether one stops the run.
     pub(crate) fn begin_events(
         &mut self,
         (time, state): &mut (S, M::State<S>),
-    ) -> Result<(), Fault> {
+    ) -> Result<bool, Fault> {
         if self.hybrid.is_empty {
-            return Ok(());
+            return Ok(false);
         }
         self.begin_interactions()?;
         self.stand(*time, state, true)?;
@@ -57,20 +57,17 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         }
         self.account(before, *time, state);
         self.read_all(*time, state, |watch, reading| watch.begin(reading))?;
-        if done.stops {
-            self.log.stop();
-        }
-        Ok(())
+        Ok(done.stops)
     }
 
     /// Calls the controllers of the instant from which a run goes on, if they were not: at the
-    /// former end of its interval.
+    /// former end of its interval. Whether one stops the run.
     pub(crate) fn go_on_with_events(
         &mut self,
         (time, state): &mut (S, M::State<S>),
-    ) -> Result<(), Fault> {
+    ) -> Result<bool, Fault> {
         if self.hybrid.is_empty || *time >= self.hybrid.end {
-            return Ok(());
+            return Ok(false);
         }
         let before = self.monitor.is_some().then(|| self.energies(*time, state));
         let done = self.call(Called::Controllers, *time, state)?;
@@ -78,48 +75,17 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             self.switch(*time, state, true)?;
         }
         self.account(before, *time, state);
-        if done.stops {
-            self.log.stop();
-        }
-        Ok(())
-    }
-
-    /// Reports an event that was found, calls its handler and the controllers of the instant that
-    /// was reached. The state is the one with which the run goes on.
-    pub(crate) fn happen(&mut self, last_good: &mut (S, M::State<S>)) -> Result<(), Fault> {
-        if self.hybrid.is_empty {
-            return Ok(());
-        }
-        let is_found = core::mem::take(&mut self.hybrid.is_found);
-        if is_found && self.log.unseen > 0 {
-            self.schedule.at(last_good.0, 0);
-            self.show(last_good.0, &last_good.1);
-        }
-        if self.log.flow.is_break() {
-            return Ok(());
-        }
-        let is_turned = self.turn(last_good.0, &last_good.1)?;
-        if is_turned {
-            self.stand(last_good.0, &last_good.1, false)?;
-            let unseen = self.log.unseen;
-            if unseen > 0 && self.schedule.at(last_good.0, unseen) {
-                self.show(last_good.0, &last_good.1);
-            }
-        }
-        let done = self.act(is_found || is_turned, last_good)?;
-        if done.moved || self.hybrid.is_switched || done.stops && self.log.unseen > 0 {
-            self.show(last_good.0, &last_good.1);
-        }
-        if done.stops {
-            self.log.stop();
-        }
-        Ok(())
+        Ok(done.stops)
     }
 
     /// The phases of an instant, in their order: impulses and modes of interactions, handlers,
     /// controllers, signs. Laws that have switched are turned before. After each phase that has
     /// changed anything, sides of laws and modes of interactions are found anew.
-    fn act(&mut self, is_found: bool, (time, state): &mut (S, M::State<S>)) -> Result<Done, Fault> {
+    pub(crate) fn act(
+        &mut self,
+        is_found: bool,
+        (time, state): &mut (S, M::State<S>),
+    ) -> Result<Done, Fault> {
         let time = *time;
         let before = self.monitor.is_some().then(|| self.energies(time, state));
         if is_found {

@@ -199,9 +199,9 @@ pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
     /// Whether a segment begins where readings may be at zero.
     pub(super) is_fresh: bool,
     /// Whether the last step ended at an event.
-    pub(super) is_found: bool,
+    pub(crate) is_found: bool,
     /// Whether modes of interactions have changed at this instant.
-    pub(super) is_switched: bool,
+    pub(crate) is_switched: bool,
     /// How often modes of interactions changed at once.
     pub(super) changes: Changes<S>,
     /// The laws that switch, where there are any.

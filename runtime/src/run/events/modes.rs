@@ -4,9 +4,9 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::status::Tracked;
-use crate::run::segments::Run;
+use crate::run::driver::Driver;
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Begins all interactions anew, once their settings are accepted.
     pub(crate) fn begin_interactions(&self) -> Result<(), Fault> {
         for tracked in self.march.equations().interactions() {

@@ -8,10 +8,10 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
+use crate::run::driver::Driver;
 use crate::run::events::instants::Instants;
 use crate::run::events::sizes::rate;
 use crate::run::events::switching::{digits_of, of, put, readings_of, sliding, undecided};
-use crate::run::segments::Run;
 use crate::state::vector::Array as _;
 use crate::stepping::watch::is_same;
 
@@ -29,10 +29,10 @@ const SHORTER: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// How often the sides may be found anew at an instant, besides once for each.
 const ROUNDS: usize = 8;
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Whether the integration begins anew because a law has switched. Turns the sides of those
     /// whose zeros were found, in a state as it was corrected.
-    pub(super) fn turn(&mut self, time: S, state: &M::State<S>) -> Result<bool, Fault> {
+    pub(crate) fn turn(&mut self, time: S, state: &M::State<S>) -> Result<bool, Fault> {
         let hybrid = &mut self.hybrid;
         let Some(switching) = &mut hybrid.switching else {
             return Ok(false);
@@ -73,7 +73,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
 
     /// Takes the sides of a state, those at a zero by which way the motion goes. What has just been
     /// found at its zero keeps the side that it has been turned to, unless the state was moved.
-    pub(super) fn stand(
+    pub(crate) fn stand(
         &mut self,
         time: S,
         state: &M::State<S>,

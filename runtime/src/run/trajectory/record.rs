@@ -48,17 +48,17 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         (end, at_end): (S, Option<&M::State<S>>),
         &(start, ref from): &(S, M::State<S>),
     ) -> Result<bool, Fault> {
-        if !self.hybrid.records {
+        if !self.driver.hybrid.records {
             return Ok(false);
         }
         if end <= start {
             return Ok(false);
         }
-        let seen = self.march.equations().seen();
+        let seen = self.driver.march.equations().seen();
         let mut points: Points<M::State<S>> = [None; FINEST + 1];
         let to = match at_end {
             Some(bodies) => *bodies,
-            None => self.march.within((start, from), end)?,
+            None => self.driver.march.within((start, from), end)?,
         };
         points[FINEST] = Some(self.recorded(end, to)?);
         let look = |run: &mut Self, points: &mut Points<M::State<S>>, intervals: usize| {
@@ -68,7 +68,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
                 };
                 let part = POINTS.get(place).copied().unwrap_or(1.0);
                 let time = S::constant(part).fused(end - start, start);
-                let bodies = run.march.within((start, from), time)?;
+                let bodies = run.driver.march.within((start, from), time)?;
                 *point = Some(run.recorded(time, bodies)?);
             }
             Ok::<(), Fault>(())
@@ -83,7 +83,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             }
             intervals = finer;
         }
-        self.march.equations_mut().recall(seen);
+        self.driver.march.equations_mut().recall(seen);
         self.each_record(&mut |trajectory| {
             let known = points.iter().step_by(FINEST / intervals);
             trajectory.add((start, end), from, known.filter_map(|point| *point));
@@ -100,20 +100,20 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// interpolant has not.
     fn recorded(&mut self, time: S, bodies: M::State<S>) -> Result<M::State<S>, Fault> {
         let mut bodies = with_unit_orientations::<S, M>(&bodies);
-        let constants = self.march.equations().constants();
+        let constants = self.driver.march.equations().constants();
         M::rewrap(constants, &mut bodies);
         // Angles as they are there, of which the polynomial is made.
         let counted = bodies;
         turns::count::<S, M>(constants, &counted, S::zero(), &mut bodies);
-        match self.stabilisation {
-            Some(stabilisation) => self.stabilised(stabilisation, time, bodies),
+        match self.driver.stabilisation {
+            Some(stabilisation) => self.driver.stabilised(stabilisation, time, bodies),
             None => Ok(bodies),
         }
     }
 
     fn each_record(&mut self, visit: &mut dyn FnMut(&mut Trajectory<M, S>)) {
-        if self.hybrid.records {
-            let _ = self.hybrid.list.each(&mut |happening| {
+        if self.driver.hybrid.records {
+            let _ = self.driver.hybrid.list.each(&mut |happening| {
                 happening.record(visit);
                 Ok(())
             });

@@ -1,0 +1,41 @@
+//! What is done at an instant between two integrations, and who is shown what of it.
+
+use crate::error::Fault;
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
+use crate::run::segments::Run;
+
+impl<S: Real, M: Mechanism> Run<'_, S, M> {
+    /// Shows an event that was found, turns laws that have switched, calls handlers and controllers.
+    /// The state is the one with which the run goes on; it is shown where anything has changed it.
+    pub(super) fn happen(&mut self, last_good: &mut (S, M::State<S>)) -> Result<(), Fault> {
+        if self.driver.hybrid.is_empty {
+            return Ok(());
+        }
+        let is_found = core::mem::take(&mut self.driver.hybrid.is_found);
+        if is_found && self.driver.unseen > 0 {
+            self.schedule.at(last_good.0, 0);
+            self.show(last_good.0, &last_good.1);
+        }
+        if self.log.flow.is_break() {
+            return Ok(());
+        }
+        let is_turned = self.driver.turn(last_good.0, &last_good.1)?;
+        if is_turned {
+            self.driver.stand(last_good.0, &last_good.1, false)?;
+            let unseen = self.driver.unseen;
+            if unseen > 0 && self.schedule.at(last_good.0, unseen) {
+                self.show(last_good.0, &last_good.1);
+            }
+        }
+        let done = self.driver.act(is_found || is_turned, last_good)?;
+        let is_unseen = done.stops && self.driver.unseen > 0;
+        if done.moved || self.driver.hybrid.is_switched || is_unseen {
+            self.show(last_good.0, &last_good.1);
+        }
+        if done.stops {
+            self.log.stop();
+        }
+        Ok(())
+    }
+}
