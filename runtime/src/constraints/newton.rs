@@ -158,23 +158,9 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
         self
     }
 
-    /// The positions moved by a step, with the rows and sizes that they have there.
-    pub(crate) fn moved(&self, constants: &M::Constants<S>, step: &M::Velocities<S>) -> Self {
-        let (state, violation) = self.displaced(constants, step, S::one());
-        let rows = Rows::at(constants, self.rows.time, &state);
-        Self {
-            state,
-            violation,
-            sizes: rows.positions(),
-            iterations: self.iterations + 1,
-            before: self.before,
-            rows,
-        }
-    }
-
     /// The velocities changed by a step. Sizes are by the speeds that are reached: those before may
     /// have been zero, or anything.
-    pub(crate) fn accelerated(&self, constants: &M::Constants<S>, step: &M::Velocities<S>) -> Self {
+    fn accelerated(&self, constants: &M::Constants<S>, step: &M::Velocities<S>) -> Self {
         let mut state = self.state;
         let velocities = state.velocities_mut().as_mut_slice();
         for (velocity, &step) in velocities.iter_mut().zip(step.as_slice()) {
@@ -190,7 +176,7 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
     }
 
     /// Whether a step has lessened the violation by more than its round-off may.
-    pub(crate) fn helped_by(&self, next: &Self) -> bool {
+    fn helped_by(&self, next: &Self) -> bool {
         self.lessened(&next.sizes, &next.violation, S::constant(HELPS))
     }
 

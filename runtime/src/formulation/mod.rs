@@ -36,7 +36,7 @@ mod penalty;
 mod standard;
 mod straight_on;
 
-pub(crate) use augmented_lagrangian::{add, combine};
+pub(crate) use augmented_lagrangian::add;
 pub(crate) use consistency::inconsistency;
 pub(crate) use straight_on::StraightOn;
 

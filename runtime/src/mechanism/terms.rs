@@ -72,18 +72,6 @@ pub trait Orientation: Copy + Debug + Default + 'static {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Normalised;
 
-/// `p' = 1/2 L(p / |p|)^T w`, and `p` left at the length that it has: the reading behind the
-/// published counts of chapter 15 (Flores 2015), here to reproduce them.
-///
-/// The orientation then turns at `w / |p|`, and nothing brings `|p|` back: at 20 rad/s and the
-/// default tolerance nothing of it is right after 1000 s. [`Normalised`] is right at the same cost.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Chapter15;
-
 impl Orientation for Normalised {
     const NORMALISED_RATES: bool = false;
-}
-
-impl Orientation for Chapter15 {
-    const NORMALISED_RATES: bool = true;
 }

@@ -37,7 +37,6 @@ pub(crate) mod companion;
 mod corrected;
 mod deferred;
 pub(crate) mod dense_step;
-pub(crate) mod direct;
 pub(crate) mod events;
 mod explained;
 pub(crate) mod followed;
