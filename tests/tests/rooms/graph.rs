@@ -7,19 +7,19 @@ use std::path::{Path, PathBuf};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 /// A module by its path within the crate.
-pub type Module = Vec<String>;
+pub(crate) type Module = Vec<String>;
 
 /// Which files use which.
-pub type Graph = BTreeMap<Module, BTreeSet<Module>>;
+pub(crate) type Graph = BTreeMap<Module, BTreeSet<Module>>;
 
 /// The files of a folder, by module, without unit tests that are files of their own.
-pub struct Sources {
-    pub texts: BTreeMap<Module, String>,
+pub(crate) struct Sources {
+    pub(crate) texts: BTreeMap<Module, String>,
 }
 
 impl Sources {
     /// Those beneath a folder of the workspace.
-    pub fn of(folder: &str) -> Self {
+    pub(crate) fn of(folder: &str) -> Self {
         let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
         let root = workspace.expect("tests lie in the workspace").join(folder);
         let mut paths = Vec::new();
@@ -42,13 +42,13 @@ impl Sources {
     }
 
     /// The tokens of a file.
-    pub fn tokens(&self, module: &Module) -> TokenStream {
+    pub(crate) fn tokens(&self, module: &Module) -> TokenStream {
         self.texts[module].parse().expect("it is Rust")
     }
 
     /// Which files use which by paths. What the head of a folder uses of its own files counts if
     /// asked for.
-    pub fn graph(&self, of_heads: bool) -> Graph {
+    pub(crate) fn graph(&self, of_heads: bool) -> Graph {
         let texts = &self.texts;
         let mut graph = BTreeMap::new();
         for module in texts.keys() {
@@ -82,7 +82,7 @@ impl Sources {
     }
 
     /// The file in which a path from the root on ends.
-    pub fn file_of<'a>(&self, path: &'a [String]) -> Option<&'a [String]> {
+    pub(crate) fn file_of<'a>(&self, path: &'a [String]) -> Option<&'a [String]> {
         let starts = (1..=path.len()).rev().map(|length| &path[..length]);
         starts
             .into_iter()
@@ -91,7 +91,7 @@ impl Sources {
 }
 
 /// Files that use each other, directly or by others.
-pub fn circles(graph: &Graph) -> BTreeSet<Vec<Module>> {
+pub(crate) fn circles(graph: &Graph) -> BTreeSet<Vec<Module>> {
     let reached = |from: &Module| {
         let (mut seen, mut open) = (BTreeSet::new(), vec![from]);
         while let Some(file) = open.pop() {
@@ -132,7 +132,7 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
 }
 
 /// A path that begins with `crate`, `self` or `super`, from the root on.
-pub fn absolute(module: &[String], path: &[String]) -> Module {
+pub(crate) fn absolute(module: &[String], path: &[String]) -> Module {
     let (mut base, mut rest) = (module.to_vec(), path);
     while let Some((first, others)) = rest.split_first() {
         match first.as_str() {
@@ -151,7 +151,7 @@ pub fn absolute(module: &[String], path: &[String]) -> Module {
 
 /// Calls a function with every path that begins with one of the heads. What stands in unit tests
 /// does not count.
-pub fn named(tokens: TokenStream, heads: &BTreeSet<&str>, each: &mut impl FnMut(&[String])) {
+pub(crate) fn named(tokens: TokenStream, heads: &BTreeSet<&str>, each: &mut impl FnMut(&[String])) {
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
     let mut place = 0;
     while place < tokens.len() {

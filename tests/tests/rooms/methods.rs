@@ -22,7 +22,7 @@ struct Block {
 }
 
 /// Adds an arrow for every call of a method of the same type that another file defines.
-pub fn add(sources: &Sources, graph: &mut Graph) {
+pub(crate) fn add(sources: &Sources, graph: &mut Graph) {
     let mut definers: BTreeMap<String, Vec<Module>> = BTreeMap::new();
     for module in sources.texts.keys() {
         types(sources.tokens(module), &mut |name| {
