@@ -3,6 +3,7 @@
 use crate::constraints::retract::displaced;
 use crate::constraints::rows::{Rows, Sizes, Speeds, fraction};
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::{Compliant, Mechanism, Stabilisation};
 use crate::state::vector::{Array, StateParts};
 
@@ -50,13 +51,7 @@ pub(crate) struct Iterate<S: Scalar, M: Mechanism> {
     before: Speeds<S>,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Iterate<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Iterate<S, M> {}
+copied!([S: Scalar, M: Mechanism] Iterate<S, M>);
 
 impl<S: Real, M: Mechanism> Iterate<S, M> {
     /// Positions to be corrected.

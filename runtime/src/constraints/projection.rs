@@ -65,6 +65,7 @@ impl<S: Real> Default for Projection<S> {
 
 /// What a correction did.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Correction<S> {
     /// Steps of Newton's method for the positions.
     pub iterations: usize,
@@ -88,6 +89,7 @@ pub struct Correction<S> {
 /// [`MechanismExt::assemble`](crate::MechanismExt::assemble): the body that stands furthest, in
 /// radians or lengths of the mechanism, from where it stood in the state that was given.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Moved<S> {
     /// The body's field.
     pub body: &'static str,

@@ -3,6 +3,8 @@
 
 use core::fmt::Debug;
 
+use crate::state::sealed::Sealed;
+
 /// The coefficients of a formulation: `gamma* = gamma - 2 a Phi' - b^2 Phi` and the compliance `e`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stabilisation<S> {
@@ -16,7 +18,7 @@ pub struct Stabilisation<S> {
 
 /// Which terms a formulation has: a type-level choice, so that a formulation pays for its own terms
 /// only.
-pub trait Terms: Copy + Debug + 'static {
+pub trait Terms: Copy + Debug + Sealed + 'static {
     /// Terms of `Phi` and `Phi'`.
     const STABILISED: bool;
     /// A compliance `e > 0`. Implies [`Terms::STABILISED`].
@@ -44,6 +46,10 @@ pub struct Stabilised;
 /// Terms of `Phi` and `Phi'`, and a compliance.
 #[derive(Clone, Copy, Debug)]
 pub struct Compliant;
+
+impl Sealed for Plain {}
+impl Sealed for Stabilised {}
+impl Sealed for Compliant {}
 
 impl Terms for Plain {
     const STABILISED: bool = false;
