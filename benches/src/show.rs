@@ -61,36 +61,57 @@ impl Scene {
     }
 }
 
+/// A run: the problem, how it is run, what of it is traced and what is read of every sample.
+macro_rules! scene {
+    (
+        $name:literal, $title:literal, $seconds:literal s, $model:ident $how:ident
+        $(, trace $body:ident $($label:literal $point:expr)?)?
+        $(, $reading:literal ($unit:literal) of |$sample:ident, $handles:ident| $value:expr)?
+    ) => {
+        Scene {
+            name: $name,
+            title: $title,
+            seconds: $seconds,
+            run: |scene, seconds| {
+                let film = Film::new().titled(scene.title).with_reactions();
+                $(let film = traced(film, scene!(@trace $model $body $($label $point)?));)?
+                $how(&$model::default(), film, seconds, |_film, _sample| {
+                    $(
+                        let ($sample, $handles) = (_sample, $model::HANDLES);
+                        _film.reading($reading, $unit, $value);
+                    )?
+                })
+            },
+        }
+    };
+    (@trace $model:ident $body:ident) => {
+        |film| {
+            film.trace($model::HANDLES.$body);
+        }
+    };
+    (@trace $model:ident $body:ident $label:literal $point:expr) => {
+        |film| {
+            film.trace_point($model::HANDLES.$body, $label, $point);
+        }
+    };
+}
+
+/// The film with a trace.
+fn traced<M: Mechanism>(mut film: Film<M>, trace: impl FnOnce(&mut Film<M>)) -> Film<M> {
+    trace(&mut film);
+    film
+}
+
 /// All runs: two without the feature `large`, whose mechanisms compile quickly.
 #[must_use]
 pub fn scenes() -> Vec<Scene> {
     let mut scenes = vec![
-        Scene {
-            name: "four-bar",
-            title: "Four-bar",
-            seconds: 6.0,
-            run: |scene, seconds| {
-                let handles = FourBar::HANDLES;
-                let mut film = scene.film();
-                film.trace_point(handles.coupler, "middle of the coupler", [0.0; 3]);
-                through_singular(&FourBar::default(), film, seconds, |film, sample| {
-                    film.reading("left foot", "rad", sample.angle(handles.left_foot));
-                })
-            },
-        },
-        Scene {
-            name: "pendulum",
-            title: "Rod on a hinge",
-            seconds: 10.0,
-            run: |scene, seconds| {
-                let handles = RodPendulum::HANDLES;
-                let mut film = scene.film();
-                film.trace_point(handles.rod, "centre of mass", [0.0; 3]);
-                accurate(&RodPendulum::default(), film, seconds, |film, sample| {
-                    film.reading("pivot", "rad", sample.angle(handles.pivot));
-                })
-            },
-        },
+        scene!("four-bar", "Four-bar", 6.0 s, FourBar through_singular,
+            trace coupler "middle of the coupler" [0.0; 3],
+            "left foot" ("rad") of |sample, h| sample.angle(h.left_foot)),
+        scene!("pendulum", "Rod on a hinge", 10.0 s, RodPendulum accurate,
+            trace rod "centre of mass" [0.0; 3],
+            "pivot" ("rad") of |sample, h| sample.angle(h.pivot)),
     ];
     scenes.extend(large());
     scenes
@@ -104,179 +125,36 @@ fn large() -> [Scene; 0] {
 #[cfg(feature = "large")]
 fn large() -> [Scene; 14] {
     [
-        Scene {
-            name: "double-four-bar",
-            title: "Two four-bars in a row",
-            seconds: 6.0,
-            run: |scene, seconds| {
-                through_singular(&DoubleFourBar::default(), scene.film(), seconds, |_, _| ())
-            },
-        },
-        Scene {
-            name: "quintuple-four-bar",
-            title: "Five four-bars in a row",
-            seconds: 6.0,
-            run: |scene, seconds| {
-                through_singular(
-                    &QuintupleFourBar::default(),
-                    scene.film(),
-                    seconds,
-                    |_, _| (),
-                )
-            },
-        },
-        Scene {
-            name: "long-pendulum",
-            title: "Simple pendulum",
-            seconds: 10.0,
-            run: |scene, seconds| {
-                accurate(&SimplePendulum::default(), scene.film(), seconds, |_, _| ())
-            },
-        },
-        Scene {
-            name: "squeezer",
-            title: "Andrews' squeezing mechanism",
-            seconds: 0.03,
-            run: |scene, seconds| {
-                let handles = SqueezingMechanism::HANDLES;
-                let mechanism = SqueezingMechanism::default();
-                accurate(&mechanism, scene.film(), seconds, |film, sample| {
-                    film.reading("hinge b", "rad", sample.angle(handles.b));
-                })
-            },
-        },
-        Scene {
-            name: "bricard",
-            title: "Bricard's mechanism",
-            seconds: 10.0,
-            run: |scene, seconds| {
-                let handles = Bricard::HANDLES;
-                let mut film = scene.film();
-                film.trace_point(handles.second, "a corner", Bricard::P3);
-                accurate(&Bricard::default(), film, seconds, |_, _| ())
-            },
-        },
-        Scene {
-            name: "governor",
-            title: "Flyball governor",
-            seconds: 10.0,
-            run: |scene, seconds| {
-                let handles = FlyballGovernor::HANDLES;
-                stiff(
-                    &FlyballGovernor::default(),
-                    scene.film(),
-                    seconds,
-                    |film, sample| {
-                        film.reading(
-                            "height of the slider",
-                            "m",
-                            sample.pose(handles.slider).position.z,
-                        );
-                    },
-                )
-            },
-        },
-        Scene {
-            name: "heavy-top",
-            title: "Heavy top",
-            seconds: 2.0,
-            run: |scene, seconds| {
-                let handles = HeavyTop::HANDLES;
-                let mut film = scene.film();
-                film.trace_point(handles.top, "centre of mass", [0.0; 3]);
-                accurate(&HeavyTop::default(), film, seconds, |_, _| ())
-            },
-        },
-        Scene {
-            name: "variable-length",
-            title: "Pendulum of variable length",
-            seconds: 5.0,
-            run: |scene, seconds| {
-                let handles = VariableLengthPendulum::HANDLES;
-                let mut film = scene.film();
-                film.trace(handles.slider);
-                let mechanism = VariableLengthPendulum::default();
-                accurate(&mechanism, film, seconds, |film, sample| {
-                    film.reading("pin", "rad", sample.angle(handles.pin));
-                })
-            },
-        },
-        Scene {
-            name: "slider-crank",
-            title: "Slider-crank",
-            seconds: 0.2,
-            run: |scene, seconds| {
-                let handles = SliderCrank::HANDLES;
-                let mut film = scene.film();
-                film.trace_point(handles.rod, "middle of the rod", [0.0; 3]);
-                accurate(&SliderCrank::default(), film, seconds, |film, sample| {
-                    film.reading("slider", "m", sample.displacement(handles.guide));
-                })
-            },
-        },
-        Scene {
-            name: "heavy-chain",
-            title: "A bob of 1000 kg on a chain of grams",
-            seconds: 1.0,
-            run: |scene, seconds| {
-                accurate(&HeavyChain::default(), scene.film(), seconds, |_, _| ())
-            },
-        },
-        Scene {
-            name: "door",
-            title: "Door on two hinges",
-            seconds: 10.0,
-            run: |scene, seconds| {
-                let handles = Door::HANDLES;
-                accurate(&Door::default(), scene.film(), seconds, |film, sample| {
-                    film.reading("lower hinge", "rad", sample.angle(handles.lower_hinge));
-                })
-            },
-        },
-        Scene {
-            name: "cart-pole",
-            title: "Cart and pole",
-            seconds: 5.0,
-            run: |scene, seconds| {
-                let handles = CartPole::HANDLES;
-                accurate(
-                    &CartPole::default(),
-                    scene.film(),
-                    seconds,
-                    |film, sample| {
-                        film.reading("hinge", "rad", sample.angle(handles.hinge));
-                    },
-                )
-            },
-        },
-        Scene {
-            name: "ur5",
-            title: "UR5 without motors",
-            seconds: 2.0,
-            run: |scene, seconds| {
-                let handles = Ur5::HANDLES;
-                let mut film = scene.film();
-                film.trace_point(handles.third_wrist, "third wrist", [0.0; 3]);
-                accurate(&Ur5::default(), film, seconds, |film, sample| {
-                    let height = sample.pose(handles.third_wrist).position.z;
-                    film.reading("height of the wrist", "m", height);
-                })
-            },
-        },
-        Scene {
-            name: "panda",
-            title: "Panda without motors",
-            seconds: 1.5,
-            run: |scene, seconds| {
-                let handles = Panda::HANDLES;
-                let mut film = scene.film();
-                film.trace(handles.hand);
-                accurate(&Panda::default(), film, seconds, |film, sample| {
-                    let height = sample.pose(handles.hand).position.z;
-                    film.reading("height of the hand", "m", height);
-                })
-            },
-        },
+        scene!("double-four-bar", "Two four-bars in a row", 6.0 s, DoubleFourBar through_singular),
+        scene!("quintuple-four-bar", "Five four-bars in a row", 6.0 s,
+            QuintupleFourBar through_singular),
+        scene!("long-pendulum", "Simple pendulum", 10.0 s, SimplePendulum accurate),
+        scene!("squeezer", "Andrews' squeezing mechanism", 0.03 s, SqueezingMechanism accurate,
+            "hinge b" ("rad") of |sample, h| sample.angle(h.b)),
+        scene!("bricard", "Bricard's mechanism", 10.0 s, Bricard accurate,
+            trace second "a corner" Bricard::P3),
+        scene!("governor", "Flyball governor", 10.0 s, FlyballGovernor stiff,
+            "height of the slider" ("m") of |sample, h| sample.pose(h.slider).position.z),
+        scene!("heavy-top", "Heavy top", 2.0 s, HeavyTop accurate,
+            trace top "centre of mass" [0.0; 3]),
+        scene!("variable-length", "Pendulum of variable length", 5.0 s,
+            VariableLengthPendulum accurate,
+            trace slider,
+            "pin" ("rad") of |sample, h| sample.angle(h.pin)),
+        scene!("slider-crank", "Slider-crank", 0.2 s, SliderCrank accurate,
+            trace rod "middle of the rod" [0.0; 3],
+            "slider" ("m") of |sample, h| sample.displacement(h.guide)),
+        scene!("heavy-chain", "A bob of 1000 kg on a chain of grams", 1.0 s, HeavyChain accurate),
+        scene!("door", "Door on two hinges", 10.0 s, Door accurate,
+            "lower hinge" ("rad") of |sample, h| sample.angle(h.lower_hinge)),
+        scene!("cart-pole", "Cart and pole", 5.0 s, CartPole accurate,
+            "hinge" ("rad") of |sample, h| sample.angle(h.hinge)),
+        scene!("ur5", "UR5 without motors", 2.0 s, Ur5 accurate,
+            trace third_wrist "third wrist" [0.0; 3],
+            "height of the wrist" ("m") of |sample, h| sample.pose(h.third_wrist).position.z),
+        scene!("panda", "Panda without motors", 1.5 s, Panda accurate,
+            trace hand,
+            "height of the hand" ("m") of |sample, h| sample.pose(h.hand).position.z),
     ]
 }
 
@@ -299,12 +177,6 @@ pub fn scene(name: &str) -> Result<Scene, String> {
             names.join(", ")
         )
     })
-}
-
-impl Scene {
-    fn film<M: Mechanism>(&self) -> Film<M> {
-        Film::new().titled(self.title).with_reactions()
-    }
 }
 
 /// For mechanisms whose equations are independent.

@@ -35,7 +35,8 @@ pub(crate) fn markers<S: Real, M: Mechanism>(view: &View<'_, S, M>) -> Vec<Marke
             kind: match marker.kind {
                 MarkerKind::Point => "point",
                 MarkerKind::Axis => "axis",
-                MarkerKind::Vector => "vector",
+                // Drawn as an arrow, as a direction of any kind.
+                _ => "vector",
             },
             at: at.into(),
         }

@@ -72,14 +72,6 @@ mod tests;
 #[doc(hidden)]
 #[path = "private.rs"]
 pub mod __private;
-/// What the study compares with, and no interface: a correction and a reading of Euler parameters
-/// of the literature. Both are made of what the corrections and the kernels of this crate are made
-/// of, which would have to be public if they stood in the study.
-#[doc(hidden)]
-pub mod __study {
-    pub use crate::mechanism::kernels::Chapter15;
-    pub use crate::run::direct::DirectCorrection;
-}
 pub mod forces;
 #[cfg(any(doc, doctest))]
 pub mod guide;

@@ -3,6 +3,7 @@
 use crate::constraints::retract::displaced;
 use crate::constraints::rows::{Rows, Sizes, Speeds, fraction};
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::{Compliant, Mechanism, Stabilisation};
 use crate::state::vector::{Array, StateParts};
 
@@ -50,13 +51,7 @@ pub(crate) struct Iterate<S: Scalar, M: Mechanism> {
     before: Speeds<S>,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Iterate<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Iterate<S, M> {}
+copied!([S: Scalar, M: Mechanism] Iterate<S, M>);
 
 impl<S: Real, M: Mechanism> Iterate<S, M> {
     /// Positions to be corrected.
@@ -158,23 +153,9 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
         self
     }
 
-    /// The positions moved by a step, with the rows and sizes that they have there.
-    pub(crate) fn moved(&self, constants: &M::Constants<S>, step: &M::Velocities<S>) -> Self {
-        let (state, violation) = self.displaced(constants, step, S::one());
-        let rows = Rows::at(constants, self.rows.time, &state);
-        Self {
-            state,
-            violation,
-            sizes: rows.positions(),
-            iterations: self.iterations + 1,
-            before: self.before,
-            rows,
-        }
-    }
-
     /// The velocities changed by a step. Sizes are by the speeds that are reached: those before may
     /// have been zero, or anything.
-    pub(crate) fn accelerated(&self, constants: &M::Constants<S>, step: &M::Velocities<S>) -> Self {
+    fn accelerated(&self, constants: &M::Constants<S>, step: &M::Velocities<S>) -> Self {
         let mut state = self.state;
         let velocities = state.velocities_mut().as_mut_slice();
         for (velocity, &step) in velocities.iter_mut().zip(step.as_slice()) {
@@ -190,7 +171,7 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
     }
 
     /// Whether a step has lessened the violation by more than its round-off may.
-    pub(crate) fn helped_by(&self, next: &Self) -> bool {
+    fn helped_by(&self, next: &Self) -> bool {
         self.lessened(&next.sizes, &next.violation, S::constant(HELPS))
     }
 

@@ -65,8 +65,9 @@ impl<S: Real> Default for Projection<S> {
 
 /// What a correction did.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Correction<S> {
-    /// Steps of Newton's method for the positions, or applications of the pseudo-inverse.
+    /// Steps of Newton's method for the positions.
     pub iterations: usize,
     /// `Phi^T Phi` before, as given.
     pub violation_before: S,
@@ -88,6 +89,7 @@ pub struct Correction<S> {
 /// [`MechanismExt::assemble`](crate::MechanismExt::assemble): the body that stands furthest, in
 /// radians or lengths of the mechanism, from where it stood in the state that was given.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Moved<S> {
     /// The body's field.
     pub body: &'static str,
@@ -108,7 +110,7 @@ pub struct Moved<S> {
 
 /// The largest violation that a state on its way may keep, in sizes of its row, however coarse the
 /// tolerance is.
-pub(crate) const EXCUSED: f64 = 1e-2;
+const EXCUSED: f64 = 1e-2;
 
 impl<S: Real> Projection<S> {
     /// Corrects positions, then velocities; Euler parameters come out at length 1.
@@ -243,7 +245,7 @@ impl<S: Real> Projection<S> {
 
 /// Corrects positions, then velocities, by functions that return what they left as well; the state
 /// is as before where one fails.
-pub(crate) fn in_turn<S: Real, M: Mechanism>(
+fn in_turn<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     time: S,
     state: &mut M::State<S>,

@@ -4,6 +4,7 @@ use crate::constraints::extent;
 use crate::constraints::rows::Rows;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::read;
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::Array;
@@ -15,13 +16,7 @@ pub(crate) struct RowUnits<S: Scalar, M: Mechanism> {
     lengths: M::Multipliers<S>,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for RowUnits<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for RowUnits<S, M> {}
+copied!([S: Scalar, M: Mechanism] RowUnits<S, M>);
 
 impl<S: Real, M: Mechanism> RowUnits<S, M> {
     pub(crate) fn of(rows: &Rows<S, M>) -> Self {

@@ -14,6 +14,7 @@ use crate::formulation::Formulation;
 use crate::integrate::{OneStep as _, Rk4, System as _};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
+use crate::mechanism::at::StateAt;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
@@ -111,7 +112,7 @@ pub(crate) trait Equations<S: Real, M: Mechanism>: Evaluate<S, M> {
     fn all_forces(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S>;
 
     /// See [`Dynamics::explained`].
-    fn explained(&self, fault: Fault, absolute: Option<S>, at: (S, M::State<S>)) -> Fault;
+    fn explained(&self, fault: Fault, absolute: Option<S>, at: StateAt<S, M>) -> Fault;
 }
 
 impl<S, M, F, A, C> Equations<S, M> for Dynamics<S, M, F, A, C>
@@ -219,7 +220,7 @@ where
         Self::all_forces(self, time, bodies)
     }
 
-    fn explained(&self, fault: Fault, absolute: Option<S>, at: (S, M::State<S>)) -> Fault {
+    fn explained(&self, fault: Fault, absolute: Option<S>, at: StateAt<S, M>) -> Fault {
         Self::explained(self, fault, absolute, at)
     }
 }

@@ -8,6 +8,7 @@ use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, Loads};
 use crate::measure::view::View;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Pivot, Terms};
 use crate::mechanism::orientations::{check_state, with_unit_orientations};
@@ -29,7 +30,10 @@ where
         &self,
         fault: Fault,
         absolute: Option<S>,
-        (time, state): (S, M::State<S>),
+        At {
+            time,
+            bodies: state,
+        }: StateAt<S, M>,
     ) -> Fault {
         match fault {
             Fault::StepSizeUnderflow { step, is_least, .. } => {

@@ -126,6 +126,7 @@ pub(crate) fn parameters<S: Real, M: Mechanism>(
 /// How often the augmented Lagrangian solved its system.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Iterations {
     /// In all evaluations together.
     pub total: usize,

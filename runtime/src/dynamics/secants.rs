@@ -2,6 +2,7 @@
 
 use crate::formulation::add;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Array;
 
@@ -18,13 +19,7 @@ pub(super) struct Change<S: Scalar, M: Mechanism> {
     pub(super) farther: M::Velocities<S>,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Change<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Change<S, M> {}
+copied!([S: Scalar, M: Mechanism] Change<S, M>);
 
 impl<S: Real, M: Mechanism> Change<S, M> {
     pub(super) fn none() -> Self {

@@ -524,7 +524,7 @@ fn product<S: Real>(x: &[S], y: &[S]) -> S {
 }
 
 /// `x = factor x + y`.
-pub(crate) fn combine<S: Real>(x: &mut [S], factor: S, y: &[S]) {
+fn combine<S: Real>(x: &mut [S], factor: S, y: &[S]) {
     x.iter_mut()
         .zip(y)
         .for_each(|(x, &y)| *x = x.fused(factor, y));

@@ -36,7 +36,7 @@ mod penalty;
 mod standard;
 mod straight_on;
 
-pub(crate) use augmented_lagrangian::{add, combine};
+pub(crate) use augmented_lagrangian::add;
 pub(crate) use consistency::inconsistency;
 pub(crate) use straight_on::StraightOn;
 
@@ -50,6 +50,7 @@ use core::marker::PhantomData;
 
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::{copied, opaque};
 use crate::mechanism::coordinates::{Absolute, ByAllRows, Coordinates, RightSide};
 use crate::mechanism::kernels::{Mechanism, Stabilisation, Terms};
 use crate::state::vector::Array;
@@ -124,6 +125,11 @@ pub struct Saddle<'a, S: Scalar, M: Mechanism, C: Coordinates<M>, T: Terms> {
     pub(crate) terms: PhantomData<T>,
 }
 
+opaque! {
+    [S: Scalar, M: Mechanism, C: Coordinates<M>, T: Terms] Saddle<'_, S, M, C, T>, "Saddle";
+    [S: Scalar, M: Mechanism, C: Coordinates<M>] Solution<S, M, C>, "Solution";
+}
+
 impl<S: Scalar, M: Mechanism, C: Coordinates<M>, T: Terms> Saddle<'_, S, M, C, T> {
     /// The solution with the multipliers of a solution before, in its place.
     // One piece of code for all solutions of a formulation that iterates, and one stack.
@@ -165,6 +171,7 @@ impl<S: Scalar, M: Mechanism, C: Coordinates<M>, T: Terms> Saddle<'_, S, M, C, T
 }
 
 /// Accelerations and multipliers of the saddle system.
+#[non_exhaustive]
 pub struct Solution<S: Scalar, M: Mechanism, C: Coordinates<M> = Absolute> {
     /// The rates of the velocities; in absolute coordinates `u'` (m/s^2 global; rad/s^2 principal
     /// body axes).
@@ -179,10 +186,7 @@ pub struct Solution<S: Scalar, M: Mechanism, C: Coordinates<M> = Absolute> {
     pub unconverged: bool,
 }
 
-impl<S: Scalar, M: Mechanism, C: Coordinates<M>> Clone for Solution<S, M, C> {
-    fn clone(&self) -> Self {
-        *self
-    }
+copied! {
+    [S: Scalar, M: Mechanism, C: Coordinates<M>, T: Terms] Saddle<'_, S, M, C, T>;
+    [S: Scalar, M: Mechanism, C: Coordinates<M>] Solution<S, M, C>;
 }
-
-impl<S: Scalar, M: Mechanism, C: Coordinates<M>> Copy for Solution<S, M, C> {}

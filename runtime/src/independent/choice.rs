@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use super::degrees_of_freedom;
 use crate::error::Fault;
+use crate::math::without_bounds::copied;
 use crate::mechanism::handle::{BodyHandle, JointHandle};
 use crate::mechanism::joint_kernels::{JointCoordinates, JointMotion};
 
@@ -61,13 +62,7 @@ impl<M> Motion<M> {
     }
 }
 
-impl<M> Clone for Motion<M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M> Copy for Motion<M> {}
+copied!([M] Motion<M>);
 
 impl<M> core::fmt::Debug for Motion<M> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

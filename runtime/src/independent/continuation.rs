@@ -10,6 +10,7 @@ use super::walk::{Spot, Walk};
 use super::{IndependentCoordinates, Linearised};
 use crate::error::{Fault, setting};
 use crate::math::scalar::Real;
+use crate::math::without_bounds::copied;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix, JointRates};
 
 /// The shortest step, of the longest.
@@ -260,13 +261,10 @@ where
     }
 }
 
-impl<M, S: Copy> Clone for Continuation<M, S> {
-    fn clone(&self) -> Self {
-        *self
-    }
+copied! {
+    [M, S: Copy] Continuation<M, S>;
+    [M: JointRates, const N: usize, S: Real] BranchPoint<M, N, S>;
 }
-
-impl<M, S: Copy> Copy for Continuation<M, S> {}
 
 impl<M, S: fmt::Debug> fmt::Debug for Continuation<M, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -278,14 +276,6 @@ impl<M, S: fmt::Debug> fmt::Debug for Continuation<M, S> {
             .finish()
     }
 }
-
-impl<M: JointRates, const N: usize, S: Real> Clone for BranchPoint<M, N, S> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M: JointRates, const N: usize, S: Real> Copy for BranchPoint<M, N, S> {}
 
 impl<M: JointRates, const N: usize, S: Real> fmt::Debug for BranchPoint<M, N, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -14,6 +14,7 @@ use crate::forward::{Forward, lifted};
 use crate::math::quaternion::product;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::read;
+use crate::math::without_bounds::copied;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_kernels::JointParts as _;
 use crate::mechanism::joint_rates::JointRates;
@@ -76,13 +77,7 @@ impl<M> Direction<M> {
     }
 }
 
-impl<M> Clone for Direction<M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M> Copy for Direction<M> {}
+copied!([M] Direction<M>);
 
 impl<M> fmt::Debug for Direction<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -80,6 +80,7 @@ pub use varied::Varied;
 
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::copied;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::described::check_limits;
@@ -263,21 +264,10 @@ impl<M: JointRates, const N: usize, S: Scalar> IndependentCoordinates<M, N, S> {
     }
 }
 
-impl<M: JointRates, const N: usize, S: Scalar> Clone for IndependentCoordinates<M, N, S> {
-    fn clone(&self) -> Self {
-        *self
-    }
+copied! {
+    [M: JointRates, const N: usize, S: Scalar] IndependentCoordinates<M, N, S>;
+    [M: JointRates, const N: usize, S: Scalar] Equations<M, N, S>;
 }
-
-impl<M: JointRates, const N: usize, S: Scalar> Copy for IndependentCoordinates<M, N, S> {}
-
-impl<M: JointRates, const N: usize, S: Scalar> Clone for Equations<M, N, S> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M: JointRates, const N: usize, S: Scalar> Copy for Equations<M, N, S> {}
 
 impl<M: JointRates, const N: usize, S: Scalar> fmt::Debug for IndependentCoordinates<M, N, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -11,6 +11,7 @@ use super::{Equations, IndependentCoordinates};
 use crate::error::{Fault, ParameterError, ParameterFault};
 use crate::math::scalar::Real;
 use crate::math::vec3::read;
+use crate::math::without_bounds::copied;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::is_no_inertia;
@@ -88,13 +89,7 @@ impl<M> From<ValueHandle<M>> for Varied<M> {
     }
 }
 
-impl<M> Clone for Varied<M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M> Copy for Varied<M> {}
+copied!([M] Varied<M>);
 
 impl<M> core::fmt::Debug for Varied<M> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

@@ -14,6 +14,7 @@ use super::trim::{Set, Trial, sizes, trial, unit, with_values};
 use super::varied::Adjusted;
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::math::without_bounds::copied;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix, JointRates};
 
 /// Corrections of a point: more, and the step is too long.
@@ -49,13 +50,7 @@ pub(super) struct Walk<const N: usize, S> {
     pub(super) interval: S,
 }
 
-impl<M: JointRates, const N: usize, S: Real> Clone for Spot<M, N, S> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M: JointRates, const N: usize, S: Real> Copy for Spot<M, N, S> {}
+copied!([M: JointRates, const N: usize, S: Real] Spot<M, N, S>);
 
 impl<const N: usize, S: Real> Tangent<N, S> {
     pub(super) fn scaled(&self, factor: S) -> Self {

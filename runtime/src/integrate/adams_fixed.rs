@@ -11,6 +11,7 @@ use super::{
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
 
 /// The method of Adams, Bashforth and Moulton of order 4 at a fixed step: predicted from the slopes
@@ -104,6 +105,8 @@ pub struct AdamsFixedIntegration<S: Real, X: Vector<S>> {
     /// The slopes at the starts of the two steps before the last, newest first.
     before: [X; 2],
 }
+
+opaque!([S: Real, X: Vector<S>] AdamsFixedIntegration<S, X>, "AdamsFixedIntegration");
 
 impl<S: Real, X: Vector<S>> AdamsFixedIntegration<S, X> {
     /// Whether a step is one of those that the slopes before it belong to. The last one may differ

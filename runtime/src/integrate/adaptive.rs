@@ -10,6 +10,7 @@ use super::{
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
 
 /// An integration with an [`Adaptive`] method under way.
@@ -24,6 +25,8 @@ pub struct AdaptiveIntegration<S: Real, X: Vector<S>, K: EmbeddedPair<S>> {
     /// Whether the interpolant has what it needs besides these.
     is_prepared: bool,
 }
+
+opaque!([S: Real, X: Vector<S>, K: EmbeddedPair<S>] AdaptiveIntegration<S, X, K>, "AdaptiveIntegration");
 
 impl<S: Real, X: Vector<S>, K: EmbeddedPair<S>> Clone for AdaptiveIntegration<S, X, K> {
     fn clone(&self) -> Self {

@@ -10,6 +10,7 @@ use super::record::{Reached, reached};
 use super::{Advance, Counts, Integration, Memory, Slopes, System, TimeSpan, named};
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
 
 controlled! {
@@ -101,6 +102,8 @@ pub struct BdfIntegration<S: Real, X: Vector<S>> {
     /// The shift `alpha / h` that the factors are for.
     factorised: Option<S>,
 }
+
+opaque!([S: Real, X: Vector<S>] BdfIntegration<S, X>, "BdfIntegration");
 
 /// A step that converged.
 struct Trial<S, X> {

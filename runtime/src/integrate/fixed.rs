@@ -10,6 +10,7 @@ use super::{
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::math::scalar::Real;
+use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
 
 /// A [`Scheme`] at a fixed step: times `t0 + k h`, the last step shortened to the end of the
@@ -131,6 +132,8 @@ pub struct FixedIntegration<S: Real, X: Vector<S>, K: Scheme<S>> {
     /// Whether the interpolant has what it needs besides these.
     is_prepared: bool,
 }
+
+opaque!([S: Real, X: Vector<S>, K: Scheme<S>] FixedIntegration<S, X, K>, "FixedIntegration");
 
 impl<S: Real, X: Vector<S>, K: Scheme<S>> Integration<S, X> for FixedIntegration<S, X, K> {
     reached!();

@@ -11,6 +11,7 @@ use super::{
 };
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
 
 /// The generalized-alpha method of order 2 for mechanisms with rigid constraints, fixed step:
@@ -121,6 +122,7 @@ impl<S: Real> GeneralizedAlpha<S> {
 
 /// The coefficients of a step of the generalized-alpha method.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct AlphaWeights<S> {
     /// What `a0` counts in the relation of accelerations.
     pub alpha_m: S,
@@ -160,6 +162,7 @@ impl<S: Real> AlphaWeights<S> {
 
 /// A step that is asked for, see [`RigidConstraints::step_on_constraints`].
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct AlphaStep<'a, S, X> {
     /// Its coefficients.
     pub weights: AlphaWeights<S>,
@@ -241,6 +244,8 @@ pub struct GeneralizedAlphaIntegration<S: Real, X: Vector<S>> {
     auxiliary: X,
     last: LastStep<S, X>,
 }
+
+opaque!([S: Real, X: Vector<S>] GeneralizedAlphaIntegration<S, X>, "GeneralizedAlphaIntegration");
 
 impl<S: Real, X: Vector<S>> Integration<S, X> for GeneralizedAlphaIntegration<S, X> {
     reached!();

@@ -1,6 +1,7 @@
 //! What an integration keeps from step to step, as numbers: written, and read again.
 
 use crate::math::scalar::Real;
+use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
 
 /// Where numbers go, or come from: each is handed over in its place.
@@ -29,11 +30,7 @@ impl<'m, S> Memory<'m, S> {
     }
 }
 
-impl<S> core::fmt::Debug for Memory<'_, S> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Memory").finish_non_exhaustive()
-    }
-}
+opaque!([S] Memory<'_, S>, "Memory");
 
 impl<S: Real> Memory<'_, S> {
     /// A number, which must be finite.

@@ -12,6 +12,7 @@ use super::{Advance, Counts, Integration, Memory, Slopes, System, TimeSpan, Tole
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::math::scalar::Real;
+use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
 
 controlled! {
@@ -81,6 +82,8 @@ pub struct RadauIntegration<S: Real, X: Vector<S>> {
     from: X,
     increments: [X; 3],
 }
+
+opaque!([S: Real, X: Vector<S>] RadauIntegration<S, X>, "RadauIntegration");
 
 /// A sum of slopes.
 fn combined<S: Real, X: Vector<S>>([a, b, c]: [S; 3], [x, y, z]: &[X; 3]) -> X {

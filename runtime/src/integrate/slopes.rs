@@ -4,6 +4,7 @@
 use super::{Counts, SecondOrder, System};
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
 
 /// A system as a step sees it.
@@ -11,6 +12,8 @@ pub struct Slopes<'a, Y, L> {
     system: &'a mut Y,
     look: L,
 }
+
+opaque!([Y, L] Slopes<'_, Y, L>, "Slopes");
 
 /// What is done about every slope: [`Unlooked`], [`Counting`] or [`Checking`].
 pub trait Look<S: Scalar, X: Vector<S>> {

@@ -1,6 +1,5 @@
 //! The equations of several mechanisms, as a step of all of them takes them.
 
-use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 
 use super::Lanes;
@@ -10,6 +9,7 @@ use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{SecondOrder, System};
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::{copied, opaque};
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Terms};
 use crate::state::vector::{Array, MovingState, Vector};
@@ -77,25 +77,14 @@ impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize>
     }
 }
 
-impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize> Clone
-    for LaneEquations<T, M, C, E, L>
-{
-    fn clone(&self) -> Self {
-        *self
-    }
+copied! {
+    [T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize]
+        LaneEquations<T, M, C, E, L>;
 }
 
-impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize> Copy
-    for LaneEquations<T, M, C, E, L>
-{
-}
-
-impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize> Debug
-    for LaneEquations<T, M, C, E, L>
-{
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("LaneEquations").finish_non_exhaustive()
-    }
+opaque! {
+    [T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize]
+        LaneEquations<T, M, C, E, L>, "LaneEquations";
 }
 
 /// Zero in lanes where all numbers are finite, else NaN.

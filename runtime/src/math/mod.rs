@@ -4,7 +4,7 @@
 //! need. The time of a stepper is a sum of two numbers (`clock.rs`): one holds what the last digits
 //! of the other leave over. `versine.rs` turns pairs by increments. `angles.rs` reads rotations as
 //! three angles. `spline` has functions from tables. `side.rs` is what laws that switch are made
-//! of.
+//! of. `without_bounds.rs` has what `derive` would ask too much for.
 
 pub(crate) mod angles;
 pub(crate) mod clock;
@@ -14,3 +14,4 @@ pub(crate) mod side;
 pub(crate) mod spline;
 pub(crate) mod vec3;
 pub(crate) mod versine;
+pub(crate) mod without_bounds;

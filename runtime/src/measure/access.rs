@@ -224,9 +224,7 @@ pub trait MechanismExt: Mechanism {
         joint: JointHandle<Self, J>,
         angle: S,
     ) -> Result<(), Fault> {
-        let constants = self.constants::<S>()?;
-        *state = Subtree::<S, Self>::of(&constants, state, joint.index())?.set_angle(angle)?;
-        Ok(())
+        with_subtree(self, state, joint.index(), |behind| behind.set_angle(angle))
     }
 
     /// Sets the rate of the angle of a joint (rad/s), as
@@ -241,9 +239,9 @@ pub trait MechanismExt: Mechanism {
         joint: JointHandle<Self, J>,
         rate: S,
     ) -> Result<(), Fault> {
-        let constants = self.constants::<S>()?;
-        *state = Subtree::<S, Self>::of(&constants, state, joint.index())?.set_angle_rate(rate)?;
-        Ok(())
+        with_subtree(self, state, joint.index(), |behind| {
+            behind.set_angle_rate(rate)
+        })
     }
 
     /// Sets the displacement of a joint (m), as [`View::displacement`](crate::View::displacement)
@@ -258,10 +256,9 @@ pub trait MechanismExt: Mechanism {
         joint: JointHandle<Self, J>,
         displacement: S,
     ) -> Result<(), Fault> {
-        let constants = self.constants::<S>()?;
-        let subtree = Subtree::<S, Self>::of(&constants, state, joint.index())?;
-        *state = subtree.set_displacement(displacement)?;
-        Ok(())
+        with_subtree(self, state, joint.index(), |behind| {
+            behind.set_displacement(displacement)
+        })
     }
 
     /// Sets the rate of the displacement of a joint (m/s), as
@@ -276,10 +273,9 @@ pub trait MechanismExt: Mechanism {
         joint: JointHandle<Self, J>,
         rate: S,
     ) -> Result<(), Fault> {
-        let constants = self.constants::<S>()?;
-        let subtree = Subtree::<S, Self>::of(&constants, state, joint.index())?;
-        *state = subtree.set_displacement_rate(rate)?;
-        Ok(())
+        with_subtree(self, state, joint.index(), |behind| {
+            behind.set_displacement_rate(rate)
+        })
     }
 
     /// Sets how the second body of a ball joint is turned against the first, from the reference
@@ -299,11 +295,10 @@ pub trait MechanismExt: Mechanism {
         joint: JointHandle<Self, J>,
         orientation: Quaternion<S>,
     ) -> Result<(), Fault> {
-        let constants = self.constants::<S>()?;
         let [x, y, z, w] = orientation.coords.into();
-        let subtree = Subtree::<S, Self>::of(&constants, state, joint.index())?;
-        *state = subtree.set_orientation(&[w, x, y, z])?;
-        Ok(())
+        with_subtree(self, state, joint.index(), |behind| {
+            behind.set_orientation(&[w, x, y, z])
+        })
     }
 
     /// The velocity of the centre of mass (m/s, global).
@@ -389,6 +384,18 @@ pub trait MechanismExt: Mechanism {
 }
 
 impl<M: Mechanism> MechanismExt for M {}
+
+/// The state with what hangs on a joint in the spanning tree set; as before where that fails.
+fn with_subtree<S: Real, M: Mechanism>(
+    mechanism: &M,
+    state: &mut M::State<S>,
+    joint: usize,
+    set: impl FnOnce(Subtree<'_, S, M>) -> Result<M::State<S>, Fault>,
+) -> Result<(), Fault> {
+    let constants = mechanism.constants::<S>()?;
+    *state = set(Subtree::of(&constants, state, joint)?)?;
+    Ok(())
+}
 
 /// `r` (m, global).
 pub(crate) fn position<S: Scalar, M: Mechanism>(

@@ -16,6 +16,7 @@ use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::{Task, perform};
+use crate::state::sealed::Sealed;
 
 /// Further forces `A`, and `K` interactions with the limits of the description among them
 /// ([`Simulation::interactions`](crate::Simulation::interactions)).
@@ -82,6 +83,10 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>, const K: usize> AppliedForce
 /// ([`Simulation::without_limits`](crate::Simulation::without_limits)).
 #[derive(Clone, Copy, Debug)]
 pub struct Unlimited<A>(pub(crate) A);
+
+impl<S, M, A, const K: usize> Sealed for Interacting<S, M, A, K> {}
+impl<A> Sealed for Unlimited<A> {}
+impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> Sealed for Heeding<S, M, A> {}
 
 impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Unlimited<A> {
     const PRESENT: bool = A::PRESENT;

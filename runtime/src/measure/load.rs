@@ -5,6 +5,7 @@ use crate::formulation::Formulation;
 use crate::math::quaternion::{normalised, rotate, rotate_back};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read};
+use crate::math::without_bounds::opaque;
 use crate::measure::access::MechanismExt;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::Coordinates;
@@ -18,10 +19,11 @@ use crate::nonsmooth::quantity::{JointQuantity, Quantity};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::Task;
+use crate::state::sealed::Sealed;
 use crate::state::vector::{Array, StateParts};
 
 /// Forces and moments beyond those of the description, as a function of time and state.
-pub trait AppliedForces<S: Scalar, M: Mechanism> {
+pub trait AppliedForces<S: Scalar, M: Mechanism>: Sealed {
     /// Whether there are any: `false` keeps the fused evaluation.
     const PRESENT: bool;
 
@@ -106,6 +108,10 @@ pub trait AppliedForces<S: Scalar, M: Mechanism> {
 /// No forces beyond those of the description; costs nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NoForces;
+
+impl Sealed for NoForces {}
+impl<A: Sealed> Sealed for &A {}
+impl<G> Sealed for ForceLaw<G> {}
 
 impl<S: Scalar, M: Mechanism> AppliedForces<S, M> for NoForces {
     const PRESENT: bool = false;
@@ -237,6 +243,8 @@ pub struct Loads<'a, S: Scalar, M: Mechanism> {
     view: View<'a, S, M>,
     pub(super) forces: &'a mut M::Velocities<S>,
 }
+
+opaque!([S: Scalar, M: Mechanism] Loads<'_, S, M>, "Loads");
 
 impl<'a, S: Scalar, M: Mechanism> Loads<'a, S, M> {
     /// Loads to be added to `g`, in a state whose Euler parameters are as the kernels read them.

@@ -22,6 +22,7 @@ use self::names::NameOf;
 use self::states::States;
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
 
@@ -83,13 +84,7 @@ impl<M: Mechanism, S: Real> NamedState<M, S> {
     }
 }
 
-impl<M: Mechanism, S: Real> Clone for NamedState<M, S> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M: Mechanism, S: Real> Copy for NamedState<M, S> {}
+copied!([M: Mechanism, S: Real] NamedState<M, S>);
 
 impl<M: Mechanism, S: Real> PartialEq for NamedState<M, S> {
     fn eq(&self, other: &Self) -> bool {

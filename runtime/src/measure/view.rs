@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use crate::error::Fault;
 use crate::math::scalar::Scalar;
 use crate::math::vec3::{minus, read, square, times};
+use crate::math::without_bounds::copied;
 use crate::measure::access::{MechanismExt, Pose};
 use crate::measure::reaction::{Wrench, wrench};
 use crate::mechanism::handle::{
@@ -38,13 +39,7 @@ pub struct View<'a, S: Scalar, M: Mechanism, K = &'a <M as Mechanism>::Constants
 /// takes that asks for a `View<'_, S, M>`.
 pub type OwnedView<'a, S, M> = View<'a, S, M, <M as Mechanism>::Constants<S>>;
 
-impl<S: Scalar, M: Mechanism, K: Copy> Clone for View<'_, S, M, K> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism, K: Copy> Copy for View<'_, S, M, K> {}
+copied!([S: Scalar, M: Mechanism, K: Copy] View<'_, S, M, K>);
 
 /// The name of the mechanism, the time and the state.
 impl<S: Scalar, M: Mechanism, K> Debug for View<'_, S, M, K> {

@@ -12,7 +12,10 @@ use crate::mechanism::orientations::{
     bring_to_unit_length, check_state, norm_drift, scale_euler_rates, with_unit_orientations,
 };
 use crate::mechanism::report::BodyKind;
+use crate::state::sealed::Sealed;
 use crate::state::vector::{Array, MovingState, StateParts};
+
+impl<P> Sealed for Absolute<P> {}
 
 impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
     type State<S: Scalar> = M::State<S>;

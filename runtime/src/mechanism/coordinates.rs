@@ -10,7 +10,9 @@ use core::marker::PhantomData;
 
 use crate::error::Fault;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::{Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms};
+use crate::state::sealed::Sealed;
 use crate::state::vector::{Array, MovingState};
 
 /// Absolute (Cartesian) coordinates: position and Euler parameters of every body, one multiplier
@@ -57,7 +59,7 @@ pub(crate) type AbsoluteEquations<S, M> = Equations<
 ///
 /// It is implemented by [`Absolute`] and [`Relative`], and by nothing else: what a program may do
 /// with it is in [`Dynamics`](crate::dynamics::Dynamics).
-pub trait Coordinates<M: Mechanism>: Copy + Debug + 'static {
+pub trait Coordinates<M: Mechanism>: Copy + Debug + Sealed + 'static {
     /// Coordinates and velocities. The rates of a state have the same type.
     type State<S: Scalar>: MovingState<S>;
     /// One number per velocity.
@@ -317,6 +319,7 @@ pub struct ByAllRows<'s, S: Scalar, M: Mechanism> {
 }
 
 /// Rates of the state, multipliers and the verdict on the pivots.
+#[non_exhaustive]
 pub struct Evaluation<S: Scalar, M: Mechanism, C: Coordinates<M> = Absolute> {
     /// `(q', u')`.
     pub rates: C::State<S>,
@@ -341,13 +344,7 @@ impl<S: Scalar, M: Mechanism, C: Coordinates<M>> Evaluation<S, M, C> {
     }
 }
 
-impl<S: Scalar, M: Mechanism, C: Coordinates<M>> Clone for Evaluation<S, M, C> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism, C: Coordinates<M>> Copy for Evaluation<S, M, C> {}
+copied!([S: Scalar, M: Mechanism, C: Coordinates<M>] Evaluation<S, M, C>);
 
 impl<S: Scalar, M: Mechanism, C: Coordinates<M>> Debug for Evaluation<S, M, C> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

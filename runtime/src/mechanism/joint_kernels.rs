@@ -6,6 +6,7 @@ use crate::math::scalar::Scalar;
 use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms};
 use crate::mechanism::report::{Kernel, StateInfo};
 use crate::state::joint_state::JointState;
+use crate::state::sealed::Sealed;
 use crate::state::vector::{Array, MovingState};
 
 /// A mechanism with `#[mechanism(coordinates = "joints")]` or `"both"`: besides the kernels of
@@ -151,6 +152,11 @@ pub trait JointParts<S: Scalar>: MovingState<S> {
     fn rest_slice_mut(&mut self) -> &mut [S];
 }
 
+impl<S, const TURNS: usize, const REST: usize, const RATES: usize, const A: usize> Sealed
+    for JointState<S, TURNS, REST, RATES, A>
+{
+}
+
 impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const A: usize>
     MovingState<S> for JointState<S, TURNS, REST, RATES, A>
 {
@@ -194,6 +200,8 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const
 }
 
 /// What the coordinates of a mechanism's joints are.
+///
+/// The macro writes it, and a program only reads it: it, and what it has, may gain fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct JointReport {
@@ -262,6 +270,7 @@ pub struct JointCounter {
 /// What a motion is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub enum Freedom {
     /// An angle: a pair of cosine and sine, and a rate (rad/s). In a run of parallel axes, both may
     /// be measured against what carries the run ([`JointMotion::against`]); and the angle need not

@@ -13,7 +13,7 @@ use crate::state::vector::{Array, StateParts};
 
 pub use super::pivot::Pivot;
 pub use super::terms::{
-    Chapter15, Compliant, Normalised, Orientation, Plain, Rigid, Stabilisation, Stabilised, Terms,
+    Compliant, Normalised, Orientation, Plain, Rigid, Stabilisation, Stabilised, Terms,
 };
 
 /// The state of a mechanism, with numbers of type `f64` unless another one is named:

@@ -6,6 +6,7 @@
 //! three rows of a vector equation share one, so that the axes of a plan do not matter.
 
 pub(crate) mod absolute;
+pub(crate) mod at;
 pub(crate) mod blocks;
 pub(crate) mod body;
 pub(crate) mod coordinates;

@@ -12,7 +12,10 @@ use crate::mechanism::joint_kernels::{JointCoordinates, JointParts};
 use crate::mechanism::kernels::{Normalised, Pivot, Stabilisation, Terms};
 use crate::mechanism::report::{BodyInfo, BodyKind};
 use crate::mechanism::turns;
+use crate::state::sealed::Sealed;
 use crate::state::vector::{Array, MovingState, StateParts, Vector};
+
+impl Sealed for Relative {}
 
 impl<M: JointCoordinates> Coordinates<M> for Relative {
     type State<S: Scalar> = M::JointState<S>;

@@ -1,6 +1,8 @@
 //! What the generator found out about a mechanism, as constants.
 
 /// Sizes, names and operation counts of a mechanism.
+///
+/// The macro writes it, and a program only reads it: it, and what it has, may gain fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Report {
@@ -101,6 +103,7 @@ impl ExplicitTime {
 /// that the rank is the same at the given ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub enum Rank {
     /// Found.
     Decided {
@@ -196,6 +199,7 @@ pub struct Carrier {
 /// Whether a body has an orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub enum BodyKind {
     /// Position and orientation: 7 coordinates, 6 velocities.
     Rigid,
@@ -316,6 +320,7 @@ pub enum ElementPlace {
 /// What a [`Marker`] is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub enum MarkerKind {
     /// A point (m).
     Point,

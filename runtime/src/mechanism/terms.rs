@@ -3,6 +3,8 @@
 
 use core::fmt::Debug;
 
+use crate::state::sealed::Sealed;
+
 /// The coefficients of a formulation: `gamma* = gamma - 2 a Phi' - b^2 Phi` and the compliance `e`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stabilisation<S> {
@@ -16,7 +18,7 @@ pub struct Stabilisation<S> {
 
 /// Which terms a formulation has: a type-level choice, so that a formulation pays for its own terms
 /// only.
-pub trait Terms: Copy + Debug + 'static {
+pub trait Terms: Copy + Debug + Sealed + 'static {
     /// Terms of `Phi` and `Phi'`.
     const STABILISED: bool;
     /// A compliance `e > 0`. Implies [`Terms::STABILISED`].
@@ -45,6 +47,10 @@ pub struct Stabilised;
 #[derive(Clone, Copy, Debug)]
 pub struct Compliant;
 
+impl Sealed for Plain {}
+impl Sealed for Stabilised {}
+impl Sealed for Compliant {}
+
 impl Terms for Plain {
     const STABILISED: bool = false;
     const COMPLIANT: bool = false;
@@ -72,18 +78,6 @@ pub trait Orientation: Copy + Debug + Default + 'static {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Normalised;
 
-/// `p' = 1/2 L(p / |p|)^T w`, and `p` left at the length that it has: the reading behind the
-/// published counts of chapter 15 (Flores 2015), here to reproduce them.
-///
-/// The orientation then turns at `w / |p|`, and nothing brings `|p|` back: at 20 rad/s and the
-/// default tolerance nothing of it is right after 1000 s. [`Normalised`] is right at the same cost.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Chapter15;
-
 impl Orientation for Normalised {
     const NORMALISED_RATES: bool = false;
-}
-
-impl Orientation for Chapter15 {
-    const NORMALISED_RATES: bool = true;
 }

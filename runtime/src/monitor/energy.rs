@@ -10,6 +10,7 @@ use super::record::{Look, MonitoredStep, RunFacts};
 use super::warning::Warning;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{read, write};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::{Array, StateParts};
 
@@ -48,13 +49,7 @@ fn with_states_of<S: Real, M: Mechanism>(bodies: M::State<S>, of: &M::State<S>) 
     mixed
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Energy<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Energy<S, M> {}
+copied!([S: Scalar, M: Mechanism] Energy<S, M>);
 
 impl<S: Real, M: Mechanism> Energy<S, M> {
     /// From a start with these energies (J) on.

@@ -15,12 +15,14 @@ use super::warning::Warning;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::square;
 use crate::math::vec3::{read, write};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::Block;
 use crate::state::vector::Array;
 
 /// The shortest gradient of an equation over a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ShortestGradient<S> {
     /// Its length over its largest, by translations or by rotations, whichever is left more of; of
     /// a vector equation of all its rows, or what one has beside the others.
@@ -71,13 +73,7 @@ pub(super) struct Shortest<S> {
     pub(super) time: S,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Gradients<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Gradients<S, M> {}
+copied!([S: Scalar, M: Mechanism] Gradients<S, M>);
 
 impl<S: Real, M: Mechanism> Gradients<S, M> {
     pub(super) fn none() -> Self {

@@ -13,6 +13,7 @@ use super::motion::MotionMeasure;
 use super::record::{Look, MonitoredStep};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{minus, read, square, write};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
@@ -39,13 +40,7 @@ pub(super) struct Memory<S: Scalar, M: Mechanism> {
     places: [M::Velocities<S>; 2],
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Memory<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Memory<S, M> {}
+copied!([S: Scalar, M: Mechanism] Memory<S, M>);
 
 /// The part of a way that is made good, above which a body goes on.
 const GOES_ON: f64 = 0.5;

@@ -98,6 +98,7 @@ use crate::constraints::row_units::characteristic_length;
 use crate::constraints::rows::Rows;
 use crate::integrate::Method;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::{copied, opaque};
 use crate::mechanism::kernels::Mechanism;
 
 /// Of how many steps the violations and energies of one are taken at least. Violations that nothing
@@ -134,6 +135,8 @@ pub struct Monitor<S: Scalar, M: Mechanism> {
     /// The time of the step whose violations and energies were taken last.
     looked: S,
 }
+
+opaque!([S: Scalar, M: Mechanism] Monitor<S, M>, "Monitor");
 
 impl<S: Real, M: Mechanism> Monitor<S, M> {
     pub(crate) fn new(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
@@ -258,10 +261,4 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
     }
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Monitor<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Monitor<S, M> {}
+copied!([S: Scalar, M: Mechanism] Monitor<S, M>);

@@ -5,6 +5,7 @@ use crate::constraints::rows::Rows;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::square;
 use crate::math::vec3::{read, write};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
@@ -34,13 +35,7 @@ pub(crate) struct Motion<S> {
     pub(super) translation: Option<usize>,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for MotionMeasure<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for MotionMeasure<S, M> {}
+copied!([S: Scalar, M: Mechanism] MotionMeasure<S, M>);
 
 impl<S: Real, M: Mechanism> MotionMeasure<S, M> {
     /// Of a mechanism of an extent (m), with its rows at the start of a run.

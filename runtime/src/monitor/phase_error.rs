@@ -13,6 +13,7 @@ use crate::math::quaternion::{conjugate, product};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::square;
 use crate::math::vec3::{minus, read, times, write};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::{BodyInfo, BodyKind};
 use crate::state::vector::{Array, StateParts};
@@ -60,13 +61,7 @@ pub(super) struct PhaseError<S: Scalar, M: Mechanism> {
     passed: usize,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for PhaseError<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for PhaseError<S, M> {}
+copied!([S: Scalar, M: Mechanism] PhaseError<S, M>);
 
 impl<S: Real, M: Mechanism> PhaseError<S, M> {
     pub(super) fn none(start: &M::State<S>) -> Self {

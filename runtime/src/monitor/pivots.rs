@@ -9,10 +9,12 @@ use super::record::{MonitoredStep, RunFacts};
 use super::singular::Approach;
 use super::warning::Warning;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 
 /// The smallest relative pivot of a run, see [`Pivot`](crate::mechanism::Pivot).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SmallestPivot<S> {
     /// The pivot, met or found between two steps.
     pub relative: S,
@@ -34,13 +36,7 @@ pub(super) struct Pivots<S: Scalar, M: Mechanism> {
     looked: S,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Pivots<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Pivots<S, M> {}
+copied!([S: Scalar, M: Mechanism] Pivots<S, M>);
 
 impl<S: Real, M: Mechanism> Pivots<S, M> {
     pub(super) fn none(start: S, state: &M::State<S>) -> Self {

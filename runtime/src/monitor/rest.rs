@@ -11,6 +11,7 @@ use super::limits::{self, exceeds};
 use super::record::MonitoredStep;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{minus, read, square};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts};
@@ -27,13 +28,7 @@ pub(super) struct Rest<S: Scalar, M: Mechanism> {
     lasts: bool,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Rest<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Rest<S, M> {}
+copied!([S: Scalar, M: Mechanism] Rest<S, M>);
 
 impl<S: Real, M: Mechanism> Rest<S, M> {
     pub(super) fn unknown(state: &M::State<S>) -> Self {

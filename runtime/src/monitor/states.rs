@@ -12,6 +12,7 @@ use super::limits::above;
 use super::record::MonitoredStep;
 use super::warning::Warning;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::{Array, StateParts};
 
@@ -54,13 +55,7 @@ pub(super) struct States<S: Scalar, M: Mechanism> {
     step: S,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for States<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for States<S, M> {}
+copied!([S: Scalar, M: Mechanism] States<S, M>);
 
 impl<S: Real, M: Mechanism> States<S, M> {
     pub(super) fn none() -> Self {

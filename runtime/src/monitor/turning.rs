@@ -11,6 +11,7 @@
 use super::motion::Motion;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, dot, read, square};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::{Array, StateParts};
 
@@ -27,13 +28,7 @@ pub(super) struct Turning<S: Scalar, M: Mechanism> {
     way: S,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Turning<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Turning<S, M> {}
+copied!([S: Scalar, M: Mechanism] Turning<S, M>);
 
 impl<S: Real, M: Mechanism> Turning<S, M> {
     pub(super) fn from(start: &M::State<S>) -> Self {

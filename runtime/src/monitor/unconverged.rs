@@ -10,6 +10,7 @@ use crate::math::scalar::Real;
 /// What was accepted although it did not converge, near a singular configuration or after one
 /// application of a pseudo-inverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Unconverged<S> {
     /// Corrections of a [`Projection`](crate::Projection), or of another
     /// [`PostStabilisation`](crate::run::PostStabilisation) that left more than its tolerance.

@@ -12,6 +12,7 @@ use crate::constraints::row_units::RowUnits;
 use crate::constraints::rows::Rows;
 use crate::constraints::side::wrong;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::JointInfo;
 use crate::state::vector::Array;
@@ -22,6 +23,7 @@ const SLIPPING: f64 = 1e-2;
 
 /// The largest violation of a joint's equations over a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Violation<S> {
     /// Of equations between lengths (m; of their rates m/s): the distance by which the joint is
     /// open.
@@ -48,21 +50,10 @@ struct Worst<S: Scalar, M: Mechanism> {
     time: M::Multipliers<S>,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Violations<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
+copied! {
+    [S: Scalar, M: Mechanism] Violations<S, M>;
+    [S: Scalar, M: Mechanism] Worst<S, M>;
 }
-
-impl<S: Scalar, M: Mechanism> Copy for Violations<S, M> {}
-
-impl<S: Scalar, M: Mechanism> Clone for Worst<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Worst<S, M> {}
 
 impl<S: Real, M: Mechanism> Violations<S, M> {
     pub(super) fn none(start: S, rows: &Rows<S, M>) -> Self {

@@ -155,7 +155,7 @@ pub enum Warning {
     },
     /// Corrections or evaluations were accepted that did not converge.
     Unconverged {
-        /// Corrections of a projection or a direct correction.
+        /// Corrections of a projection, or of a stabilisation of one's own.
         corrections: usize,
         /// Evaluations of the augmented Lagrangian.
         evaluations: usize,
@@ -349,7 +349,7 @@ impl fmt::Display for Warning {
                 time,
             } => {
                 let (what, count, or) = if corrections > 0 {
-                    let or = " or a direct correction leaves more than its tolerance";
+                    let or = " or a stabilisation leaves more than its tolerance";
                     ("corrections after steps", corrections, or)
                 } else {
                     ("evaluations of the augmented Lagrangian", evaluations, "")

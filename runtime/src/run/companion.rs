@@ -11,6 +11,7 @@
 use crate::error::Fault;
 use crate::integrate::TimeSpan;
 use crate::math::scalar::Real;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::{Begun, Driver, Taken};
 use crate::run::output::Schedule;
@@ -22,7 +23,7 @@ pub(crate) struct Companion<'c, S: Real, M: Mechanism> {
     /// As that of the first run, which tells the method when output is asked for.
     schedule: Schedule<S>,
     /// When (s) and how its bodies stood last, as accepted.
-    at: (S, M::State<S>),
+    at: StateAt<S, M>,
     has_begun: bool,
     /// The integration under way, and when (s) it ends.
     segment: Option<(Begun<S>, S)>,
@@ -42,7 +43,10 @@ impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
         Self {
             driver,
             schedule,
-            at: (time, *bodies),
+            at: At {
+                time,
+                bodies: *bodies,
+            },
             has_begun: false,
             segment: None,
             taken: Taken::none(),
@@ -79,7 +83,7 @@ impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
         if self.is_open {
             self.taken.end
         } else {
-            self.at.0
+            self.at.time
         }
     }
 
@@ -92,15 +96,19 @@ impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
         loop {
             if self.is_open {
                 let event = self.taken.event.as_ref();
-                let reached = event.map_or(self.taken.end, |&(time, _)| time);
+                let reached = event.map_or(self.taken.end, |event| event.time);
                 if reached > time {
-                    let bodies = self.driver.march.within((self.at.0, &self.at.1), time)?;
-                    self.at = (time, self.driver.stabilised_if(time, bodies)?);
-                    return Ok(self.at.1);
+                    let bodies = self
+                        .driver
+                        .march
+                        .within((self.at.time, &self.at.bodies), time)?;
+                    let bodies = self.driver.stabilised_if(time, bodies)?;
+                    self.at = At { time, bodies };
+                    return Ok(self.at.bodies);
                 }
                 self.accept(reached)?;
-            } else if self.at.0 >= time {
-                return Ok(self.at.1);
+            } else if self.at.time >= time {
+                return Ok(self.at.bodies);
             } else {
                 self.advance()?;
             }
@@ -117,11 +125,11 @@ impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
             },
         };
         self.segment = Some((begun, until));
-        let left = until - self.at.0;
+        let left = until - self.at.time;
         self.is_open = self.driver.take(&mut self.at, left, &mut self.taken)?;
         if !self.is_open {
             self.end_segment();
-            self.driver.passing.has_refused(self.at.0);
+            self.driver.passing.has_refused(self.at.time);
         }
         let budget = self.driver.settings.budget;
         let budget = budget.saturating_sub(self.driver.counts.evaluations);
@@ -131,13 +139,13 @@ impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
     /// Begins an integration, with its end (s); `None` where the companion goes across a length of
     /// zero instead.
     fn begin(&mut self) -> Result<Option<(Begun<S>, S)>, Fault> {
-        let from = self.at.0;
+        let from = self.at.time;
         let until = self.driver.next_end(from, self.driver.hybrid.end)?;
         self.driver.passing.begin();
         let until = self.driver.passing.end(from, until);
         self.driver.leave_zeros(&mut self.at, until - from);
         if self.driver.goes_across(&mut self.at, until)? {
-            self.driver.passing.has_refused(self.at.0);
+            self.driver.passing.has_refused(self.at.time);
             self.instant(until - from)?;
             return Ok(None);
         }
@@ -161,7 +169,7 @@ impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
             let length = until - begun.start;
             self.end_segment();
             self.driver.convert(&mut self.at);
-            self.driver.passing.has_refused(self.at.0);
+            self.driver.passing.has_refused(self.at.time);
             self.instant(length)?;
         }
         self.driver.convert(&mut self.at);
@@ -175,9 +183,9 @@ impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
             return Ok(());
         }
         let is_found = core::mem::take(&mut self.driver.hybrid.is_found);
-        let is_turned = self.driver.turn(self.at.0, &self.at.1)?;
+        let is_turned = self.driver.turn(self.at.time, &self.at.bodies)?;
         if is_turned {
-            self.driver.stand(self.at.0, &self.at.1, false)?;
+            self.driver.stand(self.at.time, &self.at.bodies, false)?;
         }
         self.driver.act(is_found || is_turned, &mut self.at)?;
         Ok(())

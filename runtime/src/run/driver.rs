@@ -1,17 +1,16 @@
 //! The integration of a run: from step to step, and from one end of its integration to the next.
 //!
-//! It knows nobody who looks on. A step is taken and looked into; then its end is corrected, shown
-//! to the monitor and accepted.
+//! It knows nobody who looks on. A step is taken and looked into (`taken.rs`); then its end is
+//! corrected, shown to the monitor and accepted (`commit.rs`).
 
-use crate::error::Fault;
-use crate::integrate::{Counts, Method, TimeSpan};
+use crate::integrate::{Counts, Method};
 use crate::math::scalar::Real;
+use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::Monitor;
 use crate::run::events::list::Hybrid;
 use crate::run::passing::Passing;
 use crate::run::post_step::PostStabilisation;
-use crate::run::within::judge;
 use crate::stepping::marching::{Marching, Settings};
 
 /// What a run moves, and what it remembers of the motion.
@@ -43,7 +42,7 @@ pub(crate) struct Taken<S: Real, M: Mechanism> {
     /// When it ends (s).
     pub(crate) end: S,
     /// The first event within it.
-    pub(crate) event: Option<(S, M::State<S>)>,
+    pub(crate) event: Option<StateAt<S, M>>,
     /// Where a rule of higher order would have led, where that is asked.
     pub(crate) better: Option<M::State<S>>,
     /// Evaluations so far, and those of them that looked into the step.
@@ -76,10 +75,6 @@ pub(crate) struct Begun<S> {
     pub(crate) of_monitor: usize,
 }
 
-/// Of how many steps a closure is asked twice at the end, beside the first ones: now and then, at
-/// the cost of three calls.
-const ASKED_TWICE: usize = 1024;
-
 impl<'r, S: Real, M: Mechanism> Driver<'r, S, M> {
     /// Before a run by a method, without a monitor.
     pub(crate) fn new<I: Method<S>>(
@@ -111,179 +106,4 @@ impl<'r, S: Real, M: Mechanism> Driver<'r, S, M> {
         (self.stabilisation, self.breaks) = (stabilisation, breaks);
         self
     }
-
-    /// Where (s) an integration ends that begins at a time, at the latest: at a break, a controller
-    /// or a switch of the time alone.
-    pub(crate) fn next_end(&mut self, from: S, end: S) -> Result<S, Fault> {
-        let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
-        let until = self.hybrid.next_instant(until);
-        self.next_switch(from, until)
-    }
-
-    /// Begins an integration.
-    pub(crate) fn start(
-        &mut self,
-        span: TimeSpan<S>,
-        last_good: &(S, M::State<S>),
-    ) -> Result<Begun<S>, Fault> {
-        self.march.start(span, &last_good.1)?;
-        if let (Some(monitor), false) = (&mut self.monitor, self.passing.goes_on(span.start)) {
-            monitor.restart();
-            self.march.monitor_end(monitor, &last_good.1, None);
-        }
-        Ok(Begun {
-            start: span.start,
-            of_monitor: 0,
-        })
-    }
-
-    /// Ends an integration.
-    pub(crate) fn end(&mut self, begun: &Begun<S>) {
-        let counts = self.march.counts().without(begun.of_monitor);
-        self.counts = self.counts.plus(counts);
-    }
-
-    /// Corrects what a step has reached, shows it to the monitor, and accepts it.
-    #[inline]
-    pub(crate) fn commit(
-        &mut self,
-        taken: &Taken<S, M>,
-        last_good: &mut (S, M::State<S>),
-    ) -> Result<(), Fault> {
-        match &taken.event {
-            Some(event) => self.observe_event(*event, last_good),
-            None => self.observe(taken.end, taken.better.as_ref(), last_good),
-        }
-    }
-
-    /// Whether what looks into a step have evaluated is of use to the run.
-    pub(crate) fn shares_looks(&self, taken: &Taken<S, M>, was_interpolated: bool) -> bool {
-        if was_interpolated {
-            // With reports, which find what interpolation needs where a look has evaluated it, or
-            // evaluate for each time anew.
-            self.march.counts().evaluations == taken.evaluations
-        } else {
-            // Or as the slope at the start of the next step.
-            taken.looks <= 1 && !self.corrects() && !self.settings.interacts
-        }
-    }
-
-    /// Ends a run that has evaluated more often than it may.
-    pub(crate) fn keep_to(&self, budget: usize, begun: &Begun<S>) -> Result<(), Fault> {
-        let evaluations = self.march.counts().without(begun.of_monitor).evaluations;
-        if evaluations < budget {
-            return Ok(());
-        }
-        Err(Fault::Budget {
-            evaluations: self.counts.evaluations.saturating_add(evaluations),
-            joint: None,
-        })
-    }
-
-    /// Corrects the end of the last step, and shows it to the monitor, with where a rule of higher
-    /// order would have led.
-    #[inline]
-    fn observe(
-        &mut self,
-        time: S,
-        better: Option<&M::State<S>>,
-        last_good: &mut (S, M::State<S>),
-    ) -> Result<(), Fault> {
-        if self.may_defer() && self.march.defers(time - last_good.0) {
-            last_good.0 = time;
-            self.steps = self.steps.saturating_add(1);
-            self.unseen += 1;
-            return Ok(());
-        }
-        let mut state = self.march.bodies(&last_good.1);
-        if self.corrects() {
-            state = self.corrected(time, state)?;
-            self.march.replace(&state);
-        }
-        if self.settings.interacts {
-            self.march.hold_modes(&mut state)?;
-        }
-        if let Some(monitor) = &mut self.monitor {
-            if let Some(better) = better {
-                judge(monitor, self.march.equations(), (time, &state), better);
-            }
-            let estimate = self.march.estimate();
-            self.march.monitor_end(monitor, &state, estimate);
-        }
-        self.accept(time, state, last_good)
-    }
-
-    /// Whether bodies are of no use before somebody looks: nothing reads the end of each step.
-    #[inline]
-    fn may_defer(&self) -> bool {
-        let reads = self.monitor.is_some() || self.stabilisation.is_some();
-        self.settings.may_defer && M::SEPARATIONS.is_empty() && self.hybrid.is_empty && !reads
-    }
-
-    /// Converts the last good state to bodies, if that was deferred.
-    #[inline]
-    pub(crate) fn convert(&mut self, last_good: &mut (S, M::State<S>)) {
-        if self.settings.may_defer {
-            self.march.convert(&mut last_good.1);
-        }
-    }
-
-    /// The same of an event within the last step, with the bodies there.
-    #[inline(never)]
-    fn observe_event(
-        &mut self,
-        (time, mut bodies): (S, M::State<S>),
-        last_good: &mut (S, M::State<S>),
-    ) -> Result<(), Fault> {
-        self.passing.ends_with_a_jump();
-        if self.corrects() {
-            bodies = self.corrected(time, bodies)?;
-        }
-        if self.monitor.is_some() {
-            self.march.equations_mut().see_pivot(time, &bodies);
-        }
-        // A mode may end where the step began: no step to look at.
-        if self.settings.interacts && time <= last_good.0 {
-            *last_good = (time, bodies);
-            self.unseen += 1;
-            return Ok(());
-        }
-        if let Some(monitor) = &mut self.monitor {
-            let estimate = self.march.estimate();
-            self.march.monitor_event(monitor, (time, &bodies), estimate);
-        }
-        self.accept(time, bodies, last_good)
-    }
-
-    /// Takes a state, and the bodies in it, as the last good one.
-    #[inline]
-    fn accept(
-        &mut self,
-        time: S,
-        state: M::State<S>,
-        last_good: &mut (S, M::State<S>),
-    ) -> Result<(), Fault> {
-        if let Some(monitor) = &mut self.monitor {
-            let unconverged = self.march.equations().iterations().unconverged;
-            monitor.accept_unconverged_evaluations(unconverged, time);
-        }
-        self.steps = self.steps.saturating_add(1);
-        if self.steps.is_power_of_two() || self.steps.is_multiple_of(ASKED_TWICE) {
-            let before = (last_good.0, &last_good.1);
-            self.march.equations().ask_twice((time, &state), before)?;
-        }
-        *last_good = (time, state);
-        self.unseen += 1;
-        Ok(())
-    }
-}
-
-/// The first break after a time, of those of the description and those of a run, or the end.
-fn next_break<S: Real>(described: &[f64], breaks: &[S], from: S, end: S) -> S {
-    let described = described.iter().map(|&time| S::constant(time));
-    let beyond = |time: S, bound: S| time - bound > S::constant(16.0) * bound.max(time).ulp();
-    described
-        .chain(breaks.iter().copied())
-        .filter(|&time| beyond(time, from) && beyond(end, time))
-        .fold(end, S::min)
 }

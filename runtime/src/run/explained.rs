@@ -3,6 +3,7 @@
 use crate::constraints::row_units::characteristic_length;
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::fastest;
 use crate::run::driver::Driver;
@@ -11,7 +12,7 @@ use crate::run::passages::LENGTH;
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// A fault with what the run knows of its cause.
     #[cold]
-    pub(super) fn explained(&self, fault: Fault, last_good: (S, M::State<S>)) -> Fault {
+    pub(super) fn explained(&self, fault: Fault, last_good: StateAt<S, M>) -> Fault {
         /// A violation that decays at a rate `a` is stable under an explicit method of order 4 or 5
         /// up to about this over `a`, and grows for some time from somewhat less on.
         const STABLE: f64 = 2.0;
@@ -29,7 +30,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
                 rate: rate.to_f64(),
             };
         }
-        let (constants, state) = (equations.constants(), &last_good.1);
+        let (constants, state) = (equations.constants(), &last_good.bodies);
         // A step in which something turns by radians, or moves by lengths of the mechanism, is too
         // long whatever came of it: pivots of such numbers may vanish, too.
         let turned = match fault {

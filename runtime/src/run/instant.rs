@@ -2,36 +2,39 @@
 
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::segments::Run;
+use crate::run::under_way::Run;
 
 impl<S: Real, M: Mechanism> Run<'_, S, M> {
-    /// Shows an event that was found, turns laws that have switched, calls handlers and controllers.
-    /// The state is the one with which the run goes on; it is shown where anything has changed it.
-    pub(super) fn happen(&mut self, last_good: &mut (S, M::State<S>)) -> Result<(), Fault> {
+    /// Shows an event that was found, turns laws that have switched, calls handlers and
+    /// controllers. The state is the one with which the run goes on; it is shown where anything has
+    /// changed it.
+    pub(super) fn happen(&mut self, last_good: &mut StateAt<S, M>) -> Result<(), Fault> {
         if self.driver.hybrid.is_empty {
             return Ok(());
         }
         let is_found = core::mem::take(&mut self.driver.hybrid.is_found);
         if is_found && self.driver.unseen > 0 {
-            self.schedule.at(last_good.0, 0);
-            self.show(last_good.0, &last_good.1);
+            self.schedule.at(last_good.time, 0);
+            self.show(last_good.time, &last_good.bodies);
         }
         if self.log.flow.is_break() {
             return Ok(());
         }
-        let is_turned = self.driver.turn(last_good.0, &last_good.1)?;
+        let is_turned = self.driver.turn(last_good.time, &last_good.bodies)?;
         if is_turned {
-            self.driver.stand(last_good.0, &last_good.1, false)?;
+            self.driver
+                .stand(last_good.time, &last_good.bodies, false)?;
             let unseen = self.driver.unseen;
-            if unseen > 0 && self.schedule.at(last_good.0, unseen) {
-                self.show(last_good.0, &last_good.1);
+            if unseen > 0 && self.schedule.at(last_good.time, unseen) {
+                self.show(last_good.time, &last_good.bodies);
             }
         }
         let done = self.driver.act(is_found || is_turned, last_good)?;
         let is_unseen = done.stops && self.driver.unseen > 0;
         if done.moved || self.driver.hybrid.is_switched || is_unseen {
-            self.show(last_good.0, &last_good.1);
+            self.show(last_good.time, &last_good.bodies);
         }
         if done.stops {
             self.log.stop();

@@ -1,23 +1,22 @@
 //! Runs over an interval of time, single steps, and what follows a step.
 //!
-//! `segments.rs` is a run under way: integration from break to break, corrections, reports, budget.
+//! `simulation.rs` is what a user says of a run, and `runs.rs` begins it. `driver.rs` leads the
+//! integration from step to step, and knows nobody who looks on. `taken.rs` takes a step,
+//! `corrected.rs` brings its end back onto the constraints, `commit.rs` accepts it, `explained.rs`
+//! says why a step cannot be taken. `segments.rs` is a run: a driver, and who is shown what. `instant.rs` is what is done
+//! and shown between two integrations. `Driver::act` in `events/handling.rs` has its phases.
+//! `companion.rs` leads a second driver beside the first, for `verification.rs`.
+//!
 //! A post-stabilisation is a trait object (`post_step.rs`): a corrected step costs far more than a
 //! call, and runs need no type for each. The stabilisation `TreeRecovery` goes from bodies to joint
 //! coordinates and back by the kernels of starts.
 //!
 //! `checkpoint` is where a run can go on, and `resumed.rs` goes on there: `past.rs` is what of it a
-//! run reads, without a heap. A run is compiled once for both: a resumed integration is begun as it
-//! was, and then its memory is replaced.
-//!
-//! `taken.rs` takes a step. The integration counts the turns of angles through it, in the account
-//! that states carry. Where that tells too little, `followed.rs` counts them within the step.
+//! run reads, without a heap. A resumed integration is begun as it was, and then its memory is
+//! replaced.
 //!
 //! `passing.rs` and `passages.rs` lead a run through instants at which two points meet that a force
 //! acts between.
-//!
-//! `direct.rs` is the correction by the pseudo-inverse of `D`, which the study compares with. The
-//! generated factors, of the matrix with the masses, precondition its conjugate gradients, so no
-//! kernel is generated for it.
 //!
 //! `kinematics/motion.rs` goes in steps that the motion bounds. It accepts a pose whose position
 //! and velocity are near the prediction: near a branch, another one has other velocities.
@@ -32,10 +31,10 @@
 pub(crate) mod checkpoint;
 #[cfg(feature = "recorder")]
 mod columns;
+mod commit;
 pub(crate) mod companion;
 mod corrected;
 pub(crate) mod dense_step;
-pub(crate) mod direct;
 pub(crate) mod driver;
 pub(crate) mod events;
 mod explained;
@@ -55,13 +54,14 @@ pub(crate) mod report;
 pub(crate) mod resumed;
 pub(crate) mod runs;
 pub(crate) mod sample;
-pub(crate) mod segments;
+mod segments;
 pub(crate) mod simulate;
 pub(crate) mod simulation;
 pub(crate) mod stepper;
 mod taken;
 #[cfg(feature = "std")]
 pub(crate) mod trajectory;
+pub(crate) mod under_way;
 pub(crate) mod verification;
 pub(crate) mod within;
 #[cfg(feature = "serde")]

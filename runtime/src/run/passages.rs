@@ -4,6 +4,7 @@ use crate::constraints::extent::largest;
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::math::vec3::minus;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::Driver;
 use crate::run::passing::{ACROSS, CLOSE, dot, judged};
@@ -115,7 +116,10 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// was planned. No method can: its stages would meet the zero.
     pub(super) fn goes_across(
         &mut self,
-        (time, state): &mut (S, M::State<S>),
+        At {
+            time,
+            bodies: state,
+        }: &mut StateAt<S, M>,
         until: S,
     ) -> Result<bool, Fault> {
         let Some(step) = self.passing.across.take() else {
@@ -136,7 +140,14 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
 
     /// Leaves a length that is exactly zero on the way of the motion, as little as can be told: its
     /// direction is then that way. One at rest at zero has none, and keeps none.
-    pub(super) fn leave_zeros(&mut self, (time, state): &mut (S, M::State<S>), left: S) {
+    pub(super) fn leave_zeros(
+        &mut self,
+        At {
+            time,
+            bodies: state,
+        }: &mut StateAt<S, M>,
+        left: S,
+    ) {
         if M::SEPARATIONS.is_empty() {
             return;
         }

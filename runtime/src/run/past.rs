@@ -7,6 +7,7 @@ use crate::dynamics::Iterations;
 use crate::error::Fault;
 use crate::integrate::{Counts, Memory, Reader};
 use crate::math::scalar::Real;
+use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::{Monitor, Seen};
 use crate::run::output::Reporting;
@@ -54,7 +55,7 @@ pub(crate) struct PastSegment<'p, S> {
 
 /// Where a run goes on.
 pub(crate) struct Past<'p, S: Real, M: Mechanism> {
-    pub(crate) at: (S, M::State<S>),
+    pub(crate) at: StateAt<S, M>,
     /// Parameters and inputs at the start of the run, those that a handler has set last, and the
     /// present ones.
     pub(crate) given: &'p M::Parameters<S>,

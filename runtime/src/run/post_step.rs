@@ -7,7 +7,6 @@ use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
 use crate::mechanism::relative::{bodies_of, joint_state_of};
-use crate::run::direct::DirectCorrection;
 
 /// What a run does to the state after every step, and to every state that it reports.
 ///
@@ -46,18 +45,6 @@ impl<S: Real, M: Mechanism> PostStabilisation<S, M> for Projection<S> {
         state: &mut M::State<S>,
     ) -> Result<S, Fault> {
         let correction = self.correct_in_motion::<M>(constants, time, state)?;
-        Ok(correction.residual)
-    }
-}
-
-impl<S: Real, M: Mechanism> PostStabilisation<S, M> for DirectCorrection<S> {
-    fn stabilise(
-        &self,
-        constants: &M::Constants<S>,
-        time: S,
-        state: &mut M::State<S>,
-    ) -> Result<S, Fault> {
-        let correction = self.correct::<M>(constants, time, state)?;
         Ok(correction.residual)
     }
 }

@@ -4,10 +4,11 @@ use crate::dynamics::equations::Equations;
 use crate::error::{CheckpointFault, Fault};
 use crate::integrate::{Memory, TimeSpan};
 use crate::math::scalar::Real;
+use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::{Begun, Driver};
 use crate::run::past::{Past, PastSegment};
-use crate::run::segments::Run;
+use crate::run::under_way::Run;
 use crate::state::vector::Array;
 
 /// By how much rates may differ from those of the run, relative to their size: another processor
@@ -50,7 +51,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     pub(crate) fn take_past(
         &mut self,
         past: &Past<'_, S, M>,
-        last_good: &mut (S, M::State<S>),
+        last_good: &mut StateAt<S, M>,
     ) -> Result<S, Fault> {
         let remembered = self.remember(past);
         remembered.map_err(|fault| self.driver.explained(fault, *last_good))?;
@@ -60,7 +61,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         if self.driver.go_on_with_events(last_good)? {
             self.log.stop();
         }
-        Ok(last_good.0)
+        Ok(last_good.time)
     }
 
     fn remember(&mut self, past: &Past<'_, S, M>) -> Result<(), Fault> {
@@ -77,11 +78,11 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         self.driver.counts = progress.counts;
         self.driver.unseen = progress.unseen;
         self.log.worst_violation = progress.worst_violation;
-        let (time, state) = &past.at;
+        let (time, state) = past.at.borrowed();
         #[cfg(feature = "std")]
-        self.begin_records(*time, false);
+        self.begin_records(time, false);
         if past.segment.is_none() {
-            self.driver.check_rates(Some((*time, state)), past)?;
+            self.driver.check_rates(Some((time, state)), past)?;
         }
         let equations = self.driver.march.equations_mut();
         if let Some(monitor) = &mut self.driver.monitor {
@@ -90,7 +91,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
                     *monitor = *kept;
                     equations.recall(seen);
                 }
-                None => equations.begin(monitor, *time, state),
+                None => equations.begin(monitor, time, state),
             }
         }
         equations.recall_iterations(progress.iterations);
@@ -113,8 +114,8 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         if !is_kept {
             return Err(refused(CheckpointFault::Forgetful));
         }
-        let (time, state) = &past.at;
-        if !is_whole || self.driver.march.time() != *time {
+        let (time, state) = past.at.borrowed();
+        if !is_whole || self.driver.march.time() != time {
             return Err(refused(CheckpointFault::Memory));
         }
         let seen = self.driver.march.equations().seen();

@@ -12,6 +12,7 @@ use crate::integrate::{Integrator, Method};
 use crate::math::scalar::Real;
 use crate::measure::interacting::Heeding;
 use crate::measure::load::{AppliedForces, NoForces};
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::Several as _;
@@ -27,8 +28,8 @@ use crate::run::post_step::PostStabilisation;
 use crate::run::report::{RunReport, RunResult};
 use crate::run::resumed::take_values;
 use crate::run::sample::Sample;
-use crate::run::segments::{Log, Observer, Run};
 use crate::run::simulation::{Setup, Simulation, Source};
+use crate::run::under_way::{Log, Observer, Run};
 use crate::state::vector::{Array, StateParts};
 use crate::stepping::march::March;
 
@@ -163,13 +164,16 @@ where
         };
         let (interval, reporting) = plan.interval();
         let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
-        let mut last_good = (interval.0, self.initial.unwrap_or_else(zeros));
+        let mut last_good = At {
+            time: interval.0,
+            bodies: self.initial.unwrap_or_else(zeros),
+        };
         let past = plan.past(&self.integrator, &self.formulation, C::IS_RELATIVE);
         let report = past.and_then(|past| {
             let plan = (interval, reporting, past.as_ref());
             self.attempt(happenings, plan, &mut observe, &mut last_good)
         });
-        outcome::<R, _, _, _>(report, failure, last_good)
+        outcome::<R, _, _, _>(report, failure, (last_good.time, last_good.bodies))
     }
 
     fn attempt(
@@ -177,7 +181,7 @@ where
         happenings: Option<&mut dyn Happenings<S, M>>,
         ((start, end), reporting, past): ToDo<'_, S, M>,
         observe: &mut Observer<'_, S, M>,
-        last_good: &mut (S, M::State<S>),
+        last_good: &mut StateAt<S, M>,
     ) -> Result<RunReport<S, M>, Fault>
     where
         I: Runs<S, M, F, C, A>,
@@ -198,10 +202,13 @@ where
         let constants = *dynamics.constants();
         let described = || M::initial_state(&constants);
         *last_good = past.map_or_else(
-            || (start, self.initial.unwrap_or_else(described)),
+            || At {
+                time: start,
+                bodies: self.initial.unwrap_or_else(described),
+            },
             |past| past.at,
         );
-        self.check_times([start, last_good.0, end])?;
+        self.check_times([start, last_good.time, end])?;
         let schedule = Schedule::new(start, end, reporting)?;
         let schedule = schedule.after(past.map_or(0, |past| past.progress.reports));
         // Laws that switch and interactions make events of their own.
@@ -219,15 +226,15 @@ where
         }
         let mut switching = (!M::SWITCHES.is_empty()).then(Switching::new);
         hybrid.switching = switching.as_mut();
-        check_state::<S, M>(&last_good.1)?;
+        check_state::<S, M>(&last_good.bodies)?;
         if past.is_none() {
-            last_good.1 = self.start(&constants, (start, end), last_good.1, described)?;
+            last_good.bodies = self.start(&constants, (start, end), last_good.bodies, described)?;
         } else if self.is_verified {
             return Err(Fault::NotVerified);
         }
-        let state = last_good.1;
+        let state = last_good.bodies;
         let monitor = self.is_monitored.then(|| {
-            Monitor::new(&constants, last_good.0, &state)
+            Monitor::new(&constants, last_good.time, &state)
                 .of_joints(C::keeps_equations)
                 .over(integrator)
                 .decaying(self.formulation.decay_rate())

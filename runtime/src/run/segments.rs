@@ -1,60 +1,23 @@
 //! A run under way: segments of integration between breaks, corrections, reports, and the monitor
 //! over them.
 
-use core::ops::ControlFlow;
-
 use crate::error::Fault;
 use crate::integrate::TimeSpan;
 use crate::math::scalar::Real;
-use crate::measure::view::View;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::run::companion::Companion;
 use crate::run::driver::{Begun, Driver, Taken};
-use crate::run::output::Schedule;
 use crate::run::past::Past;
 use crate::run::report::RunReport;
-use crate::run::sample::Sample;
-
-/// A run under way.
-pub(crate) struct Run<'r, S: Real, M: Mechanism> {
-    pub(crate) driver: Driver<'r, S, M>,
-    pub(crate) schedule: Schedule<S>,
-    /// A second run beside it.
-    pub(crate) companion: Option<Companion<'r, S, M>>,
-    pub(crate) log: Log<'r, S, M>,
-}
-
-/// Whom states are shown to. Behind a pointer, so that a run is compiled once for all observers.
-pub(crate) type Observer<'o, S, M> = dyn FnMut(&Sample<'_, S, M>) -> ControlFlow<()> + 'o;
-
-/// Shows states to the observer.
-pub(crate) struct Log<'r, S: Real, M: Mechanism> {
-    observe: &'r mut Observer<'r, S, M>,
-    pub(crate) worst_violation: S,
-    pub(crate) flow: ControlFlow<()>,
-}
-
-impl<'r, S: Real, M: Mechanism> Log<'r, S, M> {
-    pub(crate) fn new(observe: &'r mut Observer<'r, S, M>) -> Self {
-        Self {
-            observe,
-            worst_violation: S::zero(),
-            flow: ControlFlow::Continue(()),
-        }
-    }
-
-    /// Stops the run.
-    pub(crate) fn stop(&mut self) {
-        self.flow = ControlFlow::Break(());
-    }
-}
+use crate::run::under_way::Run;
 
 impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Goes from a state to the end; keeps the last good state.
     pub(crate) fn go(
         mut self,
         (start, end): (S, S),
-        last_good: &mut (S, M::State<S>),
+        last_good: &mut StateAt<S, M>,
         mut past: Option<&Past<'_, S, M>>,
     ) -> Result<RunReport<S, M>, Fault> {
         self.driver.leave_zeros(last_good, end - start);
@@ -74,7 +37,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     fn integrate(
         &mut self,
         (from, end): (S, S),
-        last_good: &mut (S, M::State<S>),
+        last_good: &mut StateAt<S, M>,
         past: Option<&Past<'_, S, M>>,
     ) -> Result<S, Fault> {
         let mut until = self.driver.next_end(from, end)?;
@@ -92,27 +55,27 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             first_output: self.schedule.first(from).min(until - from),
         };
         if is_between && self.driver.goes_across(last_good, until)? {
-            if self.schedule.at(last_good.0, self.driver.unseen) {
-                self.show(last_good.0, &last_good.1);
+            if self.schedule.at(last_good.time, self.driver.unseen) {
+                self.show(last_good.time, &last_good.bodies);
             }
         } else {
             let reached = self.segment(span, last_good, past);
             self.driver.convert(last_good);
             reached?;
         }
-        if self.driver.passing.has_refused(last_good.0) {
-            return Ok(last_good.0);
+        if self.driver.passing.has_refused(last_good.time) {
+            return Ok(last_good.time);
         }
         self.driver.leave_zeros(last_good, until - from);
         self.happen(last_good)?;
         self.keep_between(last_good, end)?;
-        Ok(last_good.0)
+        Ok(last_good.time)
     }
 
     /// Hands over a checkpoint between two integrations, or at the end of the run.
     #[cfg(feature = "std")]
-    fn keep_between(&mut self, last_good: &(S, M::State<S>), end: S) -> Result<(), Fault> {
-        let is_due = last_good.0 >= end || self.keeps_now();
+    fn keep_between(&mut self, last_good: &StateAt<S, M>, end: S) -> Result<(), Fault> {
+        let is_due = last_good.time >= end || self.keeps_now();
         if self.keeps() && is_due && self.log.flow.is_continue() {
             self.keep(None, last_good)?;
         }
@@ -121,20 +84,16 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
 
     #[cfg(not(feature = "std"))]
     #[inline(always)]
-    fn keep_between(&self, _: &(S, M::State<S>), _: S) -> Result<(), Fault> {
+    fn keep_between(&self, _: &StateAt<S, M>, _: S) -> Result<(), Fault> {
         Ok(())
     }
 
     /// Begins at the start (s): evaluates, calls controllers, shows the state.
-    fn begin(
-        &mut self,
-        (start, end): (S, S),
-        last_good: &mut (S, M::State<S>),
-    ) -> Result<S, Fault> {
+    fn begin(&mut self, (start, end): (S, S), last_good: &mut StateAt<S, M>) -> Result<S, Fault> {
         let driver = &mut self.driver;
         if start == end {
             let equations = driver.march.equations_mut();
-            let evaluated = equations.evaluate_once(start, &last_good.1);
+            let evaluated = equations.evaluate_once(start, &last_good.bodies);
             evaluated.map_err(|fault| driver.explained(fault, *last_good))?;
             driver.counts.evaluations += 1;
         }
@@ -144,15 +103,15 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         #[cfg(feature = "std")]
         self.begin_records(start, true);
         if self.log.flow.is_continue() {
-            self.show(start, &last_good.1);
+            self.show(start, &last_good.bodies);
         }
         if start < end {
             let Driver { march, monitor, .. } = &mut self.driver;
             let equations = march.equations();
             if let Some(monitor) = monitor {
-                equations.begin(monitor, start, &last_good.1);
+                equations.begin(monitor, start, &last_good.bodies);
             }
-            let start = (start, &last_good.1);
+            let start = (start, &last_good.bodies);
             equations.ask_twice(start, (end, start.1))?;
         }
         Ok(start)
@@ -163,7 +122,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     fn segment(
         &mut self,
         span: TimeSpan<S>,
-        last_good: &mut (S, M::State<S>),
+        last_good: &mut StateAt<S, M>,
         past: Option<&Past<'_, S, M>>,
     ) -> Result<(), Fault> {
         let under_way = past.and_then(|past| Some((past, past.segment?)));
@@ -176,7 +135,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         let mut taken = Taken::none();
         taken.end = self.driver.march.time();
         while taken.end < span.end {
-            let left = span.end - last_good.0;
+            let left = span.end - last_good.time;
             if !self.driver.take(last_good, left, &mut taken)? {
                 break;
             }
@@ -189,14 +148,14 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             if self.log.flow.is_break() {
                 break;
             }
-            if budget < usize::MAX && last_good.0 < span.end {
+            if budget < usize::MAX && last_good.time < span.end {
                 self.driver.keep_to(budget, &begun)?;
             }
             if taken.event.is_some() {
                 break;
             }
             #[cfg(feature = "std")]
-            if self.keeps_now() && last_good.0 < span.end {
+            if self.keeps_now() && last_good.time < span.end {
                 self.keep(Some(&begun), last_good)?;
                 if self.log.flow.is_break() {
                     break;
@@ -212,13 +171,13 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         &mut self,
         taken: &Taken<S, M>,
         begun: &mut Begun<S>,
-        last_good: &mut (S, M::State<S>),
+        last_good: &mut StateAt<S, M>,
     ) -> Result<(), Fault> {
         let event = taken.event.as_ref();
-        let reached = event.map_or(taken.end, |&(time, _)| time);
+        let reached = event.map_or(taken.end, |event| event.time);
         #[cfg(feature = "std")]
         let is_recorded = {
-            let at_end = event.map(|(_, bodies)| bodies);
+            let at_end = event.map(|event| &event.bodies);
             self.record_within((reached, at_end), last_good)?
         };
         #[cfg(not(feature = "std"))]
@@ -234,42 +193,41 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     }
 
     /// Shows the end of a step as it was accepted. An event is shown with what happens there.
-    fn look_at_end(&mut self, taken: &Taken<S, M>, last_good: &mut (S, M::State<S>)) {
+    fn look_at_end(&mut self, taken: &Taken<S, M>, last_good: &mut StateAt<S, M>) {
         #[cfg(feature = "std")]
         self.record_end(last_good);
-        if taken.event.is_none() && self.schedule.at(last_good.0, self.driver.unseen) {
+        if taken.event.is_none() && self.schedule.at(last_good.time, self.driver.unseen) {
             self.driver.convert(last_good);
-            self.show(last_good.0, &last_good.1);
+            self.show(last_good.time, &last_good.bodies);
         }
     }
 
     /// Shows the states at reporting times within the last step up to a time, until the observer
     /// stops; whether there are any.
     #[inline]
-    fn report_within(
-        &mut self,
-        reached: S,
-        last_good: &mut (S, M::State<S>),
-    ) -> Result<bool, Fault> {
+    fn report_within(&mut self, reached: S, last_good: &mut StateAt<S, M>) -> Result<bool, Fault> {
         let mut start = None;
         while let Some(time) = self.schedule.within(reached) {
             start.get_or_insert_with(|| (self.driver.march.equations().seen(), *last_good));
             let near = (
-                last_good.0 - self.driver.march.deferred_since(),
-                &last_good.1,
+                last_good.time - self.driver.march.deferred_since(),
+                &last_good.bodies,
             );
             let mut state = self.driver.march.within(near, time)?;
             if let Some(stabilisation) = self.driver.stabilisation {
                 state = self.driver.stabilised(stabilisation, time, state)?;
             }
-            *last_good = (time, state);
+            *last_good = At {
+                time,
+                bodies: state,
+            };
             self.driver.march.forget_deferred();
-            self.show(time, &last_good.1);
+            self.show(time, &last_good.bodies);
             if self.log.flow.is_break() {
                 break;
             }
         }
-        let Some((seen, (time, state))) = start else {
+        let Some((seen, first)) = start else {
             return Ok(false);
         };
         // What output within the step evaluates is not what the monitor is shown, which is its end.
@@ -281,24 +239,20 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             .as_mut()
             .filter(|_| self.log.flow.is_break())
         {
-            monitor.end_of_steps(self.driver.march.equations().constants(), time, &state);
+            let constants = self.driver.march.equations().constants();
+            monitor.end_of_steps(constants, first.time, &first.bodies);
         }
         Ok(true)
     }
 
-    pub(crate) fn show(&mut self, time: S, state: &M::State<S>) {
-        let companion = self.companion.as_mut();
-        let beside = companion.and_then(|companion| companion.compare(time, state));
-        let equations = self.driver.march.equations();
-        let view = View::new(equations.constants(), time, state);
-        let log = &mut self.log;
-        log.worst_violation = log.worst_violation.max(view.violation());
-        log.flow = (log.observe)(&Sample::new(view, equations).beside(beside));
-        self.driver.unseen = 0;
-    }
-
     /// The last state is one that was shown.
-    fn report(mut self, (time, state): (S, M::State<S>)) -> RunReport<S, M> {
+    fn report(
+        mut self,
+        At {
+            time,
+            bodies: state,
+        }: StateAt<S, M>,
+    ) -> RunReport<S, M> {
         let equations = self.driver.march.equations();
         if let Some(monitor) = &mut self.driver.monitor {
             equations.name_smallest_pivot(monitor);

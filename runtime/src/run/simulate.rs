@@ -9,8 +9,8 @@ use crate::run::kinematics::KinematicAnalysis;
 use crate::run::simulation::Simulation;
 use crate::run::stepper::Stepper;
 
-/// A simulation, a stepper or an analysis as a method of the mechanism, with numbers of type `f64`, so that
-/// literals need no suffix: `arm.simulation(StandardLagrange, Rk4::every(1e-3))`.
+/// A simulation, a stepper or an analysis as a method of the mechanism, with numbers of type `f64`,
+/// so that literals need no suffix: `arm.simulation(StandardLagrange, Rk4::every(1e-3))`.
 ///
 /// For `f32` or numbers of your own call [`Simulation::new`], [`Stepper::new`] and
 /// [`KinematicAnalysis::new`].

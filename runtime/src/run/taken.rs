@@ -2,6 +2,7 @@
 
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::{Driver, Taken};
 use crate::run::within::look_within;
@@ -12,7 +13,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     #[inline]
     pub(crate) fn take(
         &mut self,
-        last_good: &mut (S, M::State<S>),
+        last_good: &mut StateAt<S, M>,
         left: S,
         taken: &mut Taken<S, M>,
     ) -> Result<bool, Fault> {
@@ -20,22 +21,25 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             Ok(advanced) => advanced,
             Err(fault) => {
                 let longest = self.settings.fixed_step.map_or(left, |step| step.min(left));
-                let is_shortened = self.tries_again((last_good.0, &last_good.1), longest);
+                let is_shortened = self.tries_again(last_good.borrowed(), longest);
                 return if is_shortened { Ok(false) } else { Err(fault) };
             }
         };
         taken.end = advanced.end;
-        if !self.is_taken((last_good.0, &last_good.1), taken.end)? {
+        if !self.is_taken(last_good.borrowed(), taken.end)? {
             return Ok(false);
         }
         if !advanced.knows_turns {
             self.convert(last_good);
-            self.march.recount((last_good.0, &last_good.1))?;
+            self.march.recount(last_good.borrowed())?;
         }
         if self.settings.may_branch && self.stabilisation.is_none() {
             self.march.look_for_branches();
         }
-        let &mut (start, ref near) = last_good;
+        let &mut At {
+            time: start,
+            bodies: ref near,
+        } = last_good;
         (taken.event, taken.better, taken.looks) = (None, None, 0);
         if self.looks_for_events() {
             taken.event = self.event_within((start, near), taken.end)?;

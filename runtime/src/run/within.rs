@@ -4,6 +4,7 @@
 use crate::dynamics::equations::Equations;
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::monitor::{Asked, Monitor, Nearness};
@@ -41,15 +42,15 @@ pub(crate) fn look_within<S: Real, M: Mechanism>(
     march: &mut dyn Marching<S, M>,
     near: &M::State<S>,
     step_end: S,
-    event: Option<&(S, M::State<S>)>,
+    event: Option<&StateAt<S, M>>,
 ) {
     let start = monitor.time();
-    let end = event.map_or(step_end, |&(time, _)| time);
+    let end = event.map_or(step_end, |event| event.time);
     let asked = monitor.asks(end - start);
     if !(asked.pivot || asked.gradient) {
         return;
     }
-    let last = event.map_or_else(|| march.bodies_near(near), |&(_, bodies)| bodies);
+    let last = event.map_or_else(|| march.bodies_near(near), |event| event.bodies);
     let rate = monitor.faster(&last);
     let first = monitor.last_nearness(asked);
     let known = march.equations().pivot_seen().filter(|_| event.is_none());

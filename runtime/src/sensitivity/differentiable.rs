@@ -22,178 +22,86 @@ pub trait Differentiable<S: Real, const K: usize>: Sized {
     /// The same for numbers that carry derivatives along `K` directions.
     type Carrying;
 
+    /// The same, where its settings depend on nothing, or for directions of such scales.
+    fn lifted(self, scales: Option<&[S; K]>) -> Self::Carrying;
+
     /// Its settings depend on nothing.
-    fn carrying(self) -> Self::Carrying;
+    #[must_use]
+    fn carrying(self) -> Self::Carrying {
+        self.lifted(None)
+    }
 
     /// The same for directions of such scales: changes of parameters that count. A method that
     /// controls its steps holds derivatives to the absolute tolerance of values over them.
     #[must_use]
     fn scaled(self, scales: &[S; K]) -> Self::Carrying {
-        let _ = scales;
-        self.carrying()
+        self.lifted(Some(scales))
     }
 }
 
 impl<S: Real, const K: usize> Differentiable<S, K> for StandardLagrange {
     type Carrying = Self;
 
-    fn carrying(self) -> Self {
+    fn lifted(self, _scales: Option<&[S; K]>) -> Self {
         self
-    }
-}
-
-impl<S: Real, const K: usize> Differentiable<S, K> for Baumgarte<S> {
-    type Carrying = Baumgarte<Forward<S, K>>;
-
-    fn carrying(self) -> Self::Carrying {
-        Baumgarte {
-            alpha: Forward::fixed(self.alpha),
-            beta: Forward::fixed(self.beta),
-        }
-    }
-}
-
-impl<S: Real, const K: usize> Differentiable<S, K> for Penalty<S> {
-    type Carrying = Penalty<Forward<S, K>>;
-
-    fn carrying(self) -> Self::Carrying {
-        Penalty {
-            alpha: Forward::fixed(self.alpha),
-            omega: Forward::fixed(self.omega),
-            mu: Forward::fixed(self.mu),
-            radian: self.radian.map(Forward::fixed),
-        }
-    }
-}
-
-impl<S: Real, const K: usize> Differentiable<S, K> for AugmentedLagrangian<S> {
-    type Carrying = AugmentedLagrangian<Forward<S, K>>;
-
-    fn carrying(self) -> Self::Carrying {
-        AugmentedLagrangian {
-            alpha: Forward::fixed(self.alpha),
-            omega: Forward::fixed(self.omega),
-            mu: Forward::fixed(self.mu),
-            radian: self.radian.map(Forward::fixed),
-            tolerance: Forward::fixed(self.tolerance),
-            max_iterations: self.max_iterations,
-            is_exact: self.is_exact,
-        }
     }
 }
 
 impl<S: Real, const K: usize> Differentiable<S, K> for Tolerance<S> {
     type Carrying = Tolerance<Forward<S, K>>;
 
-    fn carrying(self) -> Self::Carrying {
+    fn lifted(self, scales: Option<&[S; K]>) -> Self::Carrying {
+        let absolute = self.absolute;
         Tolerance {
             relative: Forward::fixed(self.relative),
-            absolute: Forward::fixed(self.absolute),
-        }
-    }
-
-    fn scaled(self, scales: &[S; K]) -> Self::Carrying {
-        Tolerance {
-            relative: Forward::fixed(self.relative),
-            absolute: Forward::new(
-                self.absolute,
-                scales.map(|scale| self.absolute.quotient(scale)),
-            ),
-        }
-    }
-}
-
-impl<S: Real, const K: usize> Differentiable<S, K> for StepLimits<S> {
-    type Carrying = StepLimits<Forward<S, K>>;
-
-    fn carrying(self) -> Self::Carrying {
-        StepLimits {
-            first: self.first.map(Forward::fixed),
-            least: self.least.map(Forward::fixed),
-            largest: self.largest.map(Forward::fixed),
-            evaluations: self.evaluations,
-        }
-    }
-}
-
-impl<S: Real, const K: usize> Differentiable<S, K> for AdamsBashforthMoulton4<S> {
-    type Carrying = AdamsBashforthMoulton4<Forward<S, K>>;
-
-    fn carrying(self) -> Self::Carrying {
-        AdamsBashforthMoulton4 {
-            step: Forward::fixed(self.step),
-        }
-    }
-}
-
-/// Explicit one-step methods.
-macro_rules! explicit {
-    ($($scheme:ident),*) => {$(
-        impl<S: Real, const K: usize> Differentiable<S, K> for FixedStep<S, $scheme> {
-            type Carrying = FixedStep<Forward<S, K>, $scheme>;
-
-            fn carrying(self) -> Self::Carrying {
-                FixedStep {
-                    step: Forward::fixed(self.step),
-                    scheme: self.scheme,
+            absolute: match scales {
+                Some(scales) => {
+                    Forward::new(absolute, scales.map(|scale| absolute.quotient(scale)))
                 }
+                None => Forward::fixed(absolute),
+            },
+        }
+    }
+}
+
+/// Settings field by field: a `number`, an optional one (`maybe`), what is no number (`same`), or
+/// settings that are differentiable themselves (`settings`).
+macro_rules! differentiable {
+    ($($type:ident $([$with:ident])? { $($field:ident: $kind:ident),* $(,)? })*) => {$(
+        impl<S: Real, const K: usize> Differentiable<S, K> for $type<S $(, $with)?> {
+            type Carrying = $type<Forward<S, K> $(, $with)?>;
+
+            fn lifted(self, scales: Option<&[S; K]>) -> Self::Carrying {
+                let _ = scales;
+                $type { $($field: differentiable!(@$kind self.$field, scales)),* }
             }
         }
     )*};
+    (@number $value:expr, $scales:expr) => { Forward::fixed($value) };
+    (@maybe $value:expr, $scales:expr) => { $value.map(Forward::fixed) };
+    (@same $value:expr, $scales:expr) => { $value };
+    (@settings $value:expr, $scales:expr) => { $value.lifted($scales) };
 }
 
-explicit!(
-    SemiImplicitEuler,
-    Midpoint,
-    Heun,
-    Kutta3,
-    Rk4,
-    BogackiShampine3,
-    DormandPrince5,
-    DormandPrince8
-);
-
-/// Embedded pairs of them.
-macro_rules! embedded {
-    ($($pair:ident),*) => {$(
-        impl<S: Real, const K: usize> Differentiable<S, K> for Adaptive<S, $pair> {
-            type Carrying = Adaptive<Forward<S, K>, $pair>;
-
-            fn carrying(self) -> Self::Carrying {
-                Adaptive {
-                    tolerance: self.tolerance.carrying(),
-                    limits: self.limits.carrying(),
-                    pair: self.pair,
-                }
-            }
-
-            fn scaled(self, scales: &[S; K]) -> Self::Carrying {
-                Adaptive {
-                    tolerance: self.tolerance.scaled(scales),
-                    limits: self.limits.carrying(),
-                    pair: self.pair,
-                }
-            }
-        }
-    )*};
-}
-
-embedded!(BogackiShampine3, DormandPrince5, DormandPrince8);
-
-impl<S: Real, const K: usize> Differentiable<S, K> for Adams<S> {
-    type Carrying = Adams<Forward<S, K>>;
-
-    fn carrying(self) -> Self::Carrying {
-        Adams {
-            tolerance: self.tolerance.carrying(),
-            limits: self.limits.carrying(),
-        }
+differentiable! {
+    Baumgarte { alpha: number, beta: number }
+    Penalty { alpha: number, omega: number, mu: number, radian: maybe }
+    AugmentedLagrangian {
+        alpha: number, omega: number, mu: number, radian: maybe,
+        tolerance: number, max_iterations: same, is_exact: same,
     }
-
-    fn scaled(self, scales: &[S; K]) -> Self::Carrying {
-        Adams {
-            tolerance: self.tolerance.scaled(scales),
-            limits: self.limits.carrying(),
-        }
-    }
+    StepLimits { first: maybe, least: maybe, largest: maybe, evaluations: same }
+    FixedStep[SemiImplicitEuler] { step: number, scheme: same }
+    FixedStep[Midpoint] { step: number, scheme: same }
+    FixedStep[Heun] { step: number, scheme: same }
+    FixedStep[Kutta3] { step: number, scheme: same }
+    FixedStep[Rk4] { step: number, scheme: same }
+    FixedStep[BogackiShampine3] { step: number, scheme: same }
+    FixedStep[DormandPrince5] { step: number, scheme: same }
+    FixedStep[DormandPrince8] { step: number, scheme: same }
+    AdamsBashforthMoulton4 { step: number }
+    Adaptive[BogackiShampine3] { tolerance: settings, limits: settings, pair: same }
+    Adaptive[DormandPrince5] { tolerance: settings, limits: settings, pair: same }
+    Adaptive[DormandPrince8] { tolerance: settings, limits: settings, pair: same }
+    Adams { tolerance: settings, limits: settings }
 }

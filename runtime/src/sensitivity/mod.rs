@@ -35,6 +35,7 @@ use crate::forward::{Forward, lifted};
 use crate::independent::vary;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
+use crate::math::without_bounds::copied;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Array as _;
@@ -50,13 +51,7 @@ pub struct Sensitivities<M: Mechanism, const K: usize, S: Real = f64> {
     scales: Option<[S; K]>,
 }
 
-impl<M: Mechanism, const K: usize, S: Real> Clone for Sensitivities<M, K, S> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M: Mechanism, const K: usize, S: Real> Copy for Sensitivities<M, K, S> {}
+copied!([M: Mechanism, const K: usize, S: Real] Sensitivities<M, K, S>);
 
 impl<M: Mechanism, const K: usize, S: Real> Debug for Sensitivities<M, K, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -12,6 +12,7 @@
 
 pub(crate) mod each;
 pub(crate) mod joint_state;
+pub(crate) mod sealed;
 pub(crate) mod sums;
 pub(crate) mod traits;
 pub(crate) mod vector;

@@ -3,9 +3,10 @@
 use core::ops::IndexMut;
 
 use crate::math::scalar::{Real, Scalar};
+use crate::state::sealed::Sealed;
 
 /// A fixed-size array of scalars: multipliers, accelerations, blocks of the Jacobian.
-pub trait Array<S: Scalar>: Copy + core::fmt::Debug + PartialEq {
+pub trait Array<S: Scalar>: Copy + core::fmt::Debug + PartialEq + Sealed {
     /// The array with zero in every place.
     fn zeros() -> Self;
 
@@ -187,7 +188,7 @@ pub trait Vector<S: Scalar>: Clone {
 }
 
 /// A state with velocities, in whatever coordinates. Its slope has the same type.
-pub trait MovingState<S: Scalar>: Vector<S> + Copy + core::fmt::Debug + PartialEq {
+pub trait MovingState<S: Scalar>: Vector<S> + Copy + core::fmt::Debug + PartialEq + Sealed {
     /// The state with zero in every place.
     fn zeros() -> Self;
 

@@ -2,6 +2,7 @@
 
 use crate::math::scalar::{Real, Scalar};
 use crate::state::each::EachOfState;
+use crate::state::sealed::Sealed;
 use crate::state::sums::{plus, shares, weighted_norm, zero_if_finite};
 
 pub use crate::state::traits::{Array, MovingState, StateParts, Vector};
@@ -257,6 +258,8 @@ impl<S: Scalar, const Q: usize, const U: usize, const A: usize> Vector<S> for St
         &mut self.turns
     }
 }
+
+impl<S, const Q: usize, const U: usize, const A: usize> Sealed for State<S, Q, U, A> {}
 
 impl<S: Scalar, const Q: usize, const U: usize, const A: usize> MovingState<S>
     for State<S, Q, U, A>

@@ -9,8 +9,8 @@
 //! turns within a step where its ends tell too little.
 //!
 //! Whatever ends a step early is a guard (`guard.rs`): a number with the side of zero on which it
-//! was. `watch.rs` remembers the side, `root.rs` takes the first root of all guards, `locate.rs` finds
-//! one between two times, and `modes.rs` are the guards of interactions.
+//! was. `watch.rs` remembers the side, `root.rs` takes the first root of all guards, `locate.rs`
+//! finds one between two times, and `modes.rs` are the guards of interactions.
 //!
 //! A sign, not a value, says that a reading has passed: it is right whatever a correction after the
 //! step does to the last digits. Where a run starts at a zero, or a handler leaves a reading there,

@@ -6,6 +6,7 @@ use super::locate::{MOST, locate};
 use super::watch::{is_same, looks};
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 
 /// The first time (s) in a step at which a guard passes zero, with the bodies there; `None` of a
@@ -19,7 +20,7 @@ pub(crate) fn first_root<S: Real, M: Mechanism>(
     guards: &mut dyn Guards<S, M>,
     (start, end): (S, S),
     is_fresh: bool,
-) -> Result<Option<(S, M::State<S>)>, Fault> {
+) -> Result<Option<StateAt<S, M>>, Fault> {
     let mut before = start;
     for time in looks(start, end, is_fresh) {
         let bodies = interval.bodies_at(time)?;
@@ -60,7 +61,7 @@ pub(crate) fn first_root<S: Real, M: Mechanism>(
             guard.take(interval.equations(), root, value)
         })?;
         interval.look_from(root, bodies);
-        return Ok(Some((root, bodies)));
+        return Ok(Some(At { time: root, bodies }));
     }
     Ok(None)
 }

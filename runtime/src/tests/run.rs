@@ -1,6 +1,5 @@
 //! Runs: chapter 15 of Flores, reports, failures.
 
-use crate::__study::Chapter15;
 use crate::dynamics::Iterations;
 use crate::error::NotFinite;
 use crate::mechanism::{Normalised, Orientation};
@@ -14,6 +13,14 @@ const ODE45: DormandPrince<f64> = DormandPrince::new(Tolerance {
     relative: 1e-6,
     absolute: 1e-9,
 });
+
+/// Euler parameters read as the programs of chapter 15 do.
+#[derive(Clone, Copy, Debug, Default)]
+struct Chapter15;
+
+impl Orientation for Chapter15 {
+    const NORMALISED_RATES: bool = true;
+}
 
 fn proceed<S: Real>(_: &Sample<'_, S, Rod>) -> ControlFlow<()> {
     ControlFlow::Continue(())

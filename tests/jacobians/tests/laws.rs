@@ -5,7 +5,6 @@ use holonom::forces::{Actuator, TorsionalActuator};
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{
-    __study::Chapter15,
     AugmentedLagrangian,
     dynamics::Dynamics,
     integrate::System,
@@ -15,6 +14,14 @@ use holonom::{
 use nalgebra::DMatrix;
 
 use super::{apart, beside, by_dual_numbers, differences, offered};
+
+/// Euler parameters read as they are, at any length.
+#[derive(Clone, Copy, Debug, Default)]
+struct Chapter15;
+
+impl Orientation for Chapter15 {
+    const NORMALISED_RATES: bool = true;
+}
 
 /// An arm with a motor, and a bob on a rope at its end, with numbers that are known at run time.
 #[derive(Mechanism)]

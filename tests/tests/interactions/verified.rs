@@ -5,7 +5,7 @@ use holonom::measure::{Interacting, NoForces};
 use holonom::mechanism::Relative;
 use holonom::prelude::*;
 
-use super::{Ball, GRAVITY, Rod};
+use super::{Ball, GRAVITY, Rod, tight};
 
 /// The angle and its rate after some seconds, by a companion too.
 fn swung<I>(integrator: I, seconds: f64) -> (f64, f64)
@@ -33,7 +33,7 @@ where
 
 #[test]
 fn what_bounces_and_rubs_is_estimated() {
-    let (exact, least) = swung(DormandPrince::new(Tolerance::relative(1e-11)), 3.0);
+    let (exact, least) = swung(DormandPrince::new(tight()), 3.0);
     assert!(least < 1e-8, "{least:e}");
     for (integrator, most) in [(Rk4::every(0.05), 1e-2), (Rk4::every(0.01), 1e-4)] {
         let (angle, estimate) = swung(integrator, 3.0);

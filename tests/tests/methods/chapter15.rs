@@ -1,9 +1,9 @@
 //! Chapter 15 of Flores (2015): four formulations on one pendulum, 10 s, `ode45` at 1e-6 and 1e-9,
 //! reports every 0.02 s, Euler parameters read as the chapter's programs do.
 
-use holonom::__study::Chapter15;
 use holonom::prelude::*;
 use holonom_models::RodPendulum;
+use holonom_study::chapter15::Chapter15;
 
 use crate::pendulum::{SWINGS, angle};
 

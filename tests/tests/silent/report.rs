@@ -140,7 +140,7 @@ fn any<M: JointCoordinates>(state: &M::JointState<f64>, random: &mut Random) -> 
                 let sign = if motion.is_reversed() { -1.0 } else { 1.0 };
                 moved.rest_slice_mut()[counter] = sign * angle;
             }
-            Freedom::Slide | Freedom::Ball => continue,
+            _ => continue,
         }
         // A slope has the rate of an angle in the place of the cosine.
         holonom::state::Vector::set_element(&mut angles, 2 * motion.coordinate, angle);
@@ -271,6 +271,7 @@ fn every_element_is_described() {
                 }
                 Freedom::Slide => (&mut rest[motion.coordinate..][..1], 1),
                 Freedom::Ball => (&mut rest[motion.coordinate..][..4], 3),
+                other => panic!("{other:?} is of no known size"),
             };
             coordinates.iter_mut().for_each(|x| *x += 1);
             rates[motion.velocity..]

@@ -6,6 +6,8 @@
 #![forbid(unsafe_code)]
 
 mod lengths;
+mod links;
+mod shrinking;
 
 use std::fs;
 use std::path::{Path, PathBuf};

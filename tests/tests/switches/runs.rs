@@ -98,18 +98,20 @@ fn handlers_and_controllers_leave_laws_on_their_sides() {
 #[test]
 fn a_companion_finds_switches_of_its_own() {
     let (mechanism, h) = (busy(), Busy::HANDLES);
+    let relative = |tolerance: f64| Tolerance {
+        relative: tolerance,
+        absolute: tolerance,
+    };
     let end = |run: Simulation<'_, _, _>| {
         let report = run.run(0.0..=4.0, every(0.25), |_| ()).expect("it runs");
         let state = report.state;
         let view = mechanism.view(4.0, &state).expect("acceptable");
         (view.displacement(h.rail), report.verification)
     };
-    let (exact, _) = end(mechanism.simulation(
-        StandardLagrange,
-        DormandPrince::new(Tolerance::relative(1e-12)),
-    ));
+    let (exact, _) =
+        end(mechanism.simulation(StandardLagrange, DormandPrince::new(relative(1e-12))));
     for tolerance in [1e-4, 1e-6] {
-        let method = DormandPrince::new(Tolerance::relative(tolerance));
+        let method = DormandPrince::new(relative(tolerance));
         let run = mechanism.simulation(StandardLagrange, method).verified();
         let (reached, found) = end(run);
         let found = found.expect("it is verified");

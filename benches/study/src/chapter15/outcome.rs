@@ -216,20 +216,17 @@ pub(crate) mod tests {
             },
             evaluations: 1765,
         };
+        let mut iterations = Iterations::default();
+        if method == Method::AugmentedLagrangian {
+            (iterations.total, iterations.largest) = (3530, 3);
+        }
         let standard = method == Method::Standard;
         Outcome {
             method,
             evaluations: 1765,
             accepted: 290,
             rejected: 4,
-            iterations: match method {
-                Method::AugmentedLagrangian => Iterations {
-                    total: 3530,
-                    largest: 3,
-                    unconverged: 0,
-                },
-                _ => Iterations::default(),
-            },
+            iterations,
             instants: instants.collect(),
             prices: Prices {
                 generated: price("generated", 50.0),

@@ -1,7 +1,6 @@
 //! The four runs, and the race that times them.
 
 use holonom::{
-    __study::Chapter15,
     AugmentedLagrangian, Baumgarte, BodyHandle, DormandPrince, Fault, Formulation, JointHandle,
     Mechanism, Penalty, Runs, Sample, StandardLagrange, Tolerance,
     dynamics::Dynamics,
@@ -10,7 +9,7 @@ use holonom::{
 };
 
 use super::outcome::{Instant, Outcome, Prices};
-use super::{Method, Settings};
+use super::{Chapter15, Method, Settings};
 use crate::error::StudyError;
 use crate::pendulum::{RigidPendulum, from_vertical};
 use crate::run::{Recording, candidate, record};

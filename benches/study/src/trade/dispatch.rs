@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 
 use holonom::{
-    __study::DirectCorrection,
     AugmentedLagrangian, Baumgarte, JointCoordinates, Mechanism, Penalty, Projection, Real, Sample,
     Simulation, StandardLagrange, dynamics,
     dynamics::Dynamics,
@@ -14,6 +13,7 @@ use holonom::{
     run::{TreeRecovery, VelocityProjection},
 };
 
+use super::direct::DirectCorrection;
 use super::integration::{IntegratorSetting, with_own_type};
 use super::movable::{Described, Movable, Studied};
 use super::observation::{Observation, Start, state, stopped};

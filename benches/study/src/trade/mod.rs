@@ -10,6 +10,7 @@
 //! | what is shown of it | [`tables`], [`charts`], [`report`] |
 
 pub mod charts;
+mod direct;
 mod dispatch;
 mod front;
 mod grid;
@@ -29,6 +30,7 @@ pub mod tables;
 pub use crate::chapter15::Method;
 pub use crate::compare::{Coordinates, Precision};
 pub use crate::journal::Journal;
+pub use direct::DirectCorrection;
 pub use front::{front, front_by};
 pub use grid::{Grid, Planned};
 pub use integration::{AnyIntegration, FLOOR, Family, IntegratorSetting};

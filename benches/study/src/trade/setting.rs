@@ -322,7 +322,9 @@ impl Setting {
         };
         let stabilisation = match self.stabilisation {
             PostStabilisation::None | PostStabilisation::Projection => String::new(),
-            PostStabilisation::DirectCorrection => name("__study::DirectCorrection"),
+            PostStabilisation::DirectCorrection => {
+                "use holonom_study::trade::DirectCorrection;\n".into()
+            }
             PostStabilisation::VelocityProjection => name("run::VelocityProjection"),
             PostStabilisation::TreeRecovery => name("run::TreeRecovery"),
         };

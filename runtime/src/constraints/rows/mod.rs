@@ -9,6 +9,7 @@ use crate::constraints::extent::{centre, extent};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::norm;
 use crate::math::vec3::{read, write};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::{Block, BodyKind};
 use crate::state::vector::{Array, StateParts};
@@ -37,13 +38,7 @@ pub(crate) struct Rows<S: Scalar, M: Mechanism> {
     pub(crate) time: S,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Rows<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Rows<S, M> {}
+copied!([S: Scalar, M: Mechanism] Rows<S, M>);
 
 /// The sizes of one row.
 #[derive(Clone, Copy)]

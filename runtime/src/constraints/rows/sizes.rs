@@ -2,6 +2,7 @@
 
 use super::REACHED;
 use crate::math::scalar::{Real, Scalar};
+use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Array;
 
@@ -19,13 +20,7 @@ pub(crate) struct Sizes<S: Scalar, M: Mechanism> {
     pub(super) vanishing: M::Multipliers<S>,
 }
 
-impl<S: Scalar, M: Mechanism> Clone for Sizes<S, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Scalar, M: Mechanism> Copy for Sizes<S, M> {}
+copied!([S: Scalar, M: Mechanism] Sizes<S, M>);
 
 /// Up to which multiple it counts as brought to: where the round-off of a solution comes on top,
 /// which a further iteration need not lessen.

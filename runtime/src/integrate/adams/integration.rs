@@ -10,6 +10,7 @@ use crate::integrate::controller::Controller;
 use crate::integrate::record::{Reached, reached};
 use crate::integrate::{Advance, Counts, Integration, Memory, Slopes, System, TimeSpan, named};
 use crate::math::scalar::Real;
+use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
 
 /// What the first step takes of the change that the tolerance allows, and the power of the step
@@ -34,6 +35,8 @@ pub struct AdamsIntegration<S: Real, X: Vector<S>> {
     /// The modified divided differences of the slopes, `phi`: the first is the slope at the state.
     differences: Row<X>,
 }
+
+opaque!([S: Real, X: Vector<S>] AdamsIntegration<S, X>, "AdamsIntegration");
 
 /// What a trial ended with.
 enum Trial<S, X> {

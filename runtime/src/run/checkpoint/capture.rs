@@ -8,10 +8,11 @@ use std::vec::Vec;
 use super::{Checkpoint, Kept, Segment};
 use crate::error::{CheckpointFault, Fault};
 use crate::math::scalar::Real;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::Begun;
 use crate::run::past::Progress;
-use crate::run::segments::Run;
+use crate::run::under_way::Run;
 
 impl<S: Real, M: Mechanism> Run<'_, S, M> {
     /// Whether checkpoints are kept.
@@ -30,7 +31,10 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     pub(crate) fn keep(
         &mut self,
         under_way: Option<&Begun<S>>,
-        &(time, ref state): &(S, M::State<S>),
+        &At {
+            time,
+            bodies: ref state,
+        }: &StateAt<S, M>,
     ) -> Result<(), Fault> {
         let checkpoint = self.checkpoint(under_way, (time, state))?;
         let (steps, mut stops) = (self.driver.steps, false);

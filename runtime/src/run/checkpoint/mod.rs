@@ -24,6 +24,7 @@ use std::vec::Vec;
 use crate::error::{CheckpointFault, Fault};
 use crate::integrate::{Memory, Tape};
 use crate::math::scalar::Real;
+use crate::mechanism::at::At;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::{Monitor, Seen};
 use crate::run::output::Reporting;
@@ -202,7 +203,10 @@ impl<M: Mechanism, S: Real> Plan<S, M> for &Checkpoint<M, S> {
         });
         let monitor = self.monitor.as_ref();
         Ok(Some(Past {
-            at: (self.time, self.state),
+            at: At {
+                time: self.time,
+                bodies: self.state,
+            },
             given: &self.given,
             taken: self.taken.as_ref(),
             present: &self.present,

@@ -5,6 +5,7 @@ use crate::dynamics::evaluate::Evaluate;
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::measure::view::View;
+use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
 use crate::run::driver::Driver;
@@ -21,9 +22,6 @@ use crate::stepping::watch::Watch;
 /// steps.
 const UNRESOLVED: f64 = 1e3;
 
-/// The time (s) and the state of an event.
-type Found<S, M> = Option<(S, <M as Mechanism>::State<S>)>;
-
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Whether an event may be found within a step.
     #[inline]
@@ -39,7 +37,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         &mut self,
         (start, near): (S, &M::State<S>),
         end: S,
-    ) -> Result<Found<S, M>, Fault> {
+    ) -> Result<Option<StateAt<S, M>>, Fault> {
         let hybrid = &mut self.hybrid;
         hybrid.longest = hybrid.longest.max(end - start);
         let is_fresh = hybrid.is_fresh;

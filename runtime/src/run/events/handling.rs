@@ -7,6 +7,7 @@ use crate::dynamics::equations::Equations;
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::measure::view::View;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::check_state;
 use crate::nonsmooth::status::Tracked;
@@ -42,7 +43,10 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Calls controllers at the start, and takes the readings there. Whether one stops the run.
     pub(crate) fn begin_events(
         &mut self,
-        (time, state): &mut (S, M::State<S>),
+        At {
+            time,
+            bodies: state,
+        }: &mut StateAt<S, M>,
     ) -> Result<bool, Fault> {
         if self.hybrid.is_empty {
             return Ok(false);
@@ -64,7 +68,10 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// former end of its interval. Whether one stops the run.
     pub(crate) fn go_on_with_events(
         &mut self,
-        (time, state): &mut (S, M::State<S>),
+        At {
+            time,
+            bodies: state,
+        }: &mut StateAt<S, M>,
     ) -> Result<bool, Fault> {
         if self.hybrid.is_empty || *time >= self.hybrid.end {
             return Ok(false);
@@ -84,7 +91,10 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     pub(crate) fn act(
         &mut self,
         is_found: bool,
-        (time, state): &mut (S, M::State<S>),
+        At {
+            time,
+            bodies: state,
+        }: &mut StateAt<S, M>,
     ) -> Result<Done, Fault> {
         let time = *time;
         let before = self.monitor.is_some().then(|| self.energies(time, state));
@@ -266,7 +276,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             let here = read((time, state));
             let reading = Reading {
                 here,
-                ahead: read((ahead.0, &ahead.1)),
+                ahead: read(ahead.borrowed()),
                 round_off: round_off(here, beside.each_ref().map(|(t, x)| read((*t, x)))),
             };
             if let Some(watch) = happening.watch() {
@@ -278,7 +288,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     }
 
     /// A little ahead on the way of the motion, as far as velocities and rates of states lead.
-    fn ahead(&self, time: S, state: &M::State<S>) -> (S, M::State<S>) {
+    fn ahead(&self, time: S, state: &M::State<S>) -> StateAt<S, M> {
         let mut step = self.hybrid.end - time;
         if self.hybrid.longest > S::zero() {
             step = step.min(self.hybrid.longest);
@@ -291,7 +301,10 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if rate * step > ahead::<S>() {
             step = ahead::<S>().quotient(rate);
         }
-        (time + step, state.plus([(step, &rates)]))
+        At {
+            time: time + step,
+            bodies: state.plus([(step, &rates)]),
+        }
     }
 }
 

@@ -151,7 +151,7 @@ where
             };
             let mut modes = Modes::of(dynamics);
             let found = first_root(&mut within, &mut modes, (time, end), true)?;
-            let (found, near) = (found.map(|(root, _)| root), within.near);
+            let (found, near) = (found.map(|found| found.time), within.near);
             let reached = found.unwrap_or(end);
             next = if found.is_some() {
                 step.at((reached - time).quotient(left))

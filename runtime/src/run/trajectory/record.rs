@@ -3,11 +3,12 @@
 use super::{FINEST, POINTS, Recorded, Trajectory, interpolated};
 use crate::error::Fault;
 use crate::math::scalar::Real;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::turns;
 use crate::run::events::list::Happening;
-use crate::run::segments::Run;
+use crate::run::under_way::Run;
 use crate::state::vector::{MovingState as _, Vector as _};
 
 /// By how much elements may differ from the motion, in units of round-off, relative to those of
@@ -46,7 +47,10 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     pub(crate) fn record_within(
         &mut self,
         (end, at_end): (S, Option<&M::State<S>>),
-        &(start, ref from): &(S, M::State<S>),
+        &At {
+            time: start,
+            bodies: ref from,
+        }: &StateAt<S, M>,
     ) -> Result<bool, Fault> {
         if !self.driver.hybrid.records {
             return Ok(false);
@@ -92,7 +96,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     }
 
     /// Ends the last step that was recorded with the state with which the run goes on.
-    pub(crate) fn record_end(&mut self, (_, state): &(S, M::State<S>)) {
+    pub(crate) fn record_end(&mut self, At { bodies: state, .. }: &StateAt<S, M>) {
         self.each_record(&mut |trajectory| trajectory.end_with(state));
     }
 
