@@ -3,8 +3,9 @@
 //! `simulation.rs` is what a user says of a run, and `runs.rs` begins it. `driver.rs` leads the
 //! integration from step to step, and knows nobody who looks on. `taken.rs` takes a step,
 //! `corrected.rs` brings its end back onto the constraints, `commit.rs` accepts it, `explained.rs`
-//! says why a step cannot be taken. `segments.rs` is a run: a driver, and who is shown what. `instant.rs` is what is done
-//! and shown between two integrations. `Driver::act` in `events/handling.rs` has its phases.
+//! says why a step cannot be taken. `segments.rs` leads a run, and `under_way.rs` is what it has: a
+//! driver, and whom its states are shown to. `instant.rs` is what is done and shown between two
+//! integrations. `Driver::act` in `events/handling.rs` has its phases.
 //! `companion.rs` leads a second driver beside the first, for `verification.rs`.
 //!
 //! A post-stabilisation is a trait object (`post_step.rs`): a corrected step costs far more than a
