@@ -175,7 +175,8 @@ where
     }
 
     /// Accepts a start that violates the constraints by more than four digits, in positions or
-    /// velocities, which is refused with [`Fault::InconsistentStart`] otherwise.
+    /// velocities, which is refused with
+    /// [`Fault::InconsistentStart`](crate::Fault::InconsistentStart) otherwise.
     #[must_use]
     pub fn inconsistent_start(mut self) -> Self {
         self.setup.accepts_any_start = true;
@@ -192,7 +193,7 @@ where
         self
     }
 
-    /// Runs without the monitor behind [`RunReport::warnings`]: that saves a tenth to a third of
+    /// Runs without the monitor behind [`RunReport::warnings`](crate::RunReport::warnings): that saves a tenth to a third of
     /// the time, and more for runs of some ten steps.
     #[must_use]
     pub fn unmonitored(mut self) -> Self {
@@ -201,9 +202,10 @@ where
     }
 
     /// Runs a companion beside the run, with half the step or another tolerance, and compares both
-    /// at the reporting times: [`RunReport::verification`] estimates by how much every body is off,
-    /// in m and rad, and from when on; [`Sample::error_of`] estimates the error of whatever an
-    /// observer reads. It finds what single steps do not tell: how errors grow in orbits, falls
+    /// at the reporting times: [`RunReport::verification`](crate::RunReport::verification) estimates
+    /// by how much every body is off, in m and rad, and from when on;
+    /// [`Sample::error_of`](crate::Sample::error_of) estimates the error of whatever an observer
+    /// reads. It finds what single steps do not tell: how errors grow in orbits, falls
     /// from the upright and chaos, closures that jump, pulses that steps pass over.
     ///
     /// It costs two to three times what the run does by itself, and at least 256 steps with a
@@ -264,7 +266,8 @@ where
     /// `|time, state, loads| loads.force(body, ...)`.
     ///
     /// It is called at trial states, for times that go back and forth, and may remember nothing:
-    /// what gives two answers for one time and state ends a run with [`Fault::TwoAnswers`]. A
+    /// what gives two answers for one time and state ends a run with
+    /// [`Fault::TwoAnswers`](crate::Fault::TwoAnswers). A
     /// controller with memory is called by [`Simulation::every_period`].
     ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.
