@@ -193,8 +193,8 @@ where
         self
     }
 
-    /// Runs without the monitor behind [`RunReport::warnings`](crate::RunReport::warnings): that saves a tenth to a third of
-    /// the time, and more for runs of some ten steps.
+    /// Runs without the monitor behind [`RunReport::warnings`](crate::RunReport::warnings): that
+    /// saves a tenth to a third of the time, and more for runs of some ten steps.
     #[must_use]
     pub fn unmonitored(mut self) -> Self {
         self.setup.is_monitored = false;
@@ -202,8 +202,8 @@ where
     }
 
     /// Runs a companion beside the run, with half the step or another tolerance, and compares both
-    /// at the reporting times: [`RunReport::verification`](crate::RunReport::verification) estimates
-    /// by how much every body is off, in m and rad, and from when on;
+    /// at the reporting times. [`RunReport::verification`](crate::RunReport::verification)
+    /// estimates by how much every body is off, in m and rad, and from when on;
     /// [`Sample::error_of`](crate::Sample::error_of) estimates the error of whatever an observer
     /// reads. It finds what single steps do not tell: how errors grow in orbits, falls
     /// from the upright and chaos, closures that jump, pulses that steps pass over.
