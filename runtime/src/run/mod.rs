@@ -63,6 +63,7 @@ mod taken;
 #[cfg(feature = "std")]
 pub(crate) mod trajectory;
 pub(crate) mod within;
+mod worked;
 #[cfg(feature = "serde")]
 mod written;
 

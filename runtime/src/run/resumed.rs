@@ -10,6 +10,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::run::past::{Numbers, Past, PastSegment, vector};
 use crate::run::segments::{Begun, Run};
+use crate::run::worked::begin_to_watch;
 use crate::state::vector::{Array, Vector};
 
 /// By how much rates may differ from those of the run, relative to their size: another processor
@@ -148,8 +149,7 @@ where
             if past.monitor.is_none() {
                 monitor.restart();
                 let of_integration = integration.state();
-                self.dynamics
-                    .monitor(monitor, *time, of_integration, state, None);
+                begin_to_watch(monitor, &mut self.dynamics, (*time, of_integration), state);
             } else {
                 self.dynamics.recall(seen);
             }

@@ -11,7 +11,7 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Work};
 use crate::run::branching::Branching;
 use crate::run::companion::Companion;
 use crate::run::deferred::Deferred;
@@ -24,6 +24,7 @@ use crate::run::post_step::PostStabilisation;
 use crate::run::report::RunReport;
 use crate::run::sample::Sample;
 use crate::run::within::judge;
+use crate::run::worked::{begin_to_watch, worked};
 
 /// A run under way.
 pub(crate) struct Run<'r, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> {
@@ -285,8 +286,12 @@ where
         {
             monitor.restart();
             let state = integration.state();
-            self.dynamics
-                .monitor(monitor, span.start, state, &last_good.1, None);
+            begin_to_watch(
+                monitor,
+                &mut self.dynamics,
+                (span.start, state),
+                &last_good.1,
+            );
         }
         let budget = integrator.budget().unwrap_or(usize::MAX);
         let budget = budget.saturating_sub(self.counts.evaluations);
@@ -322,10 +327,15 @@ where
             if !is_shared {
                 begun.of_monitor = begun.of_monitor.saturating_add(taken.looks);
             }
+            let before = integration.counts().evaluations;
             if let Some(&(time, bodies)) = event {
-                self.observe_event(integration.estimate(), (time, bodies), last_good)?;
+                self.observe_event(&mut integration, (time, bodies), last_good)?;
             } else {
                 self.observe(&mut integration, taken.better.as_ref(), last_good)?;
+            }
+            let looks = integration.counts().evaluations.saturating_sub(before);
+            if looks > 1 || self.corrects() || A::INTERACTS {
+                begun.of_monitor = begun.of_monitor.saturating_add(looks);
             }
             #[cfg(feature = "std")]
             self.record_end(last_good);
@@ -421,6 +431,16 @@ where
         }
         let near = &last_good.1;
         let mut state = self.dynamics.bodies_counted(integration.state(), near);
+        let exchanged = match &self.monitor {
+            Some(monitor) => worked(
+                monitor,
+                &mut self.dynamics,
+                integration,
+                (time, &state),
+                near,
+            ),
+            None => (None, None),
+        };
         if self.corrects() {
             state = self.corrected(time, state)?;
             let state = self.dynamics.nearest_to(&state, integration.state());
@@ -436,7 +456,7 @@ where
             judge(monitor, &self.dynamics, (time, &state), better);
         }
         let estimate = integration.estimate();
-        self.accept((time, integration.state()), state, estimate, last_good)
+        self.accept((time, state), (estimate, exchanged), last_good)
     }
 
     /// Whether bodies are of no use before somebody looks: nothing reads the end of each step.
@@ -456,13 +476,20 @@ where
 
     /// The same of an event within the last step, with the bodies there.
     #[inline(never)]
-    fn observe_event(
+    fn observe_event<K: Advance<S, Dynamics<S, M, F, A, C>>>(
         &mut self,
-        estimate: Option<S>,
+        integration: &mut K,
         (time, mut bodies): (S, M::State<S>),
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
         self.passing.ends_with_a_jump();
+        let exchanged = match &self.monitor {
+            Some(monitor) if time > monitor.time() => {
+                let (dynamics, near) = (&mut self.dynamics, &last_good.1);
+                worked(monitor, dynamics, integration, (time, &bodies), near)
+            }
+            _ => (None, None),
+        };
         if self.corrects() {
             bodies = self.corrected(time, bodies)?;
         }
@@ -475,22 +502,21 @@ where
             self.log.unseen += 1;
             return Ok(());
         }
-        let state = self.dynamics.nearest(&bodies);
-        self.accept((time, &state), bodies, estimate, last_good)
+        let estimate = integration.estimate();
+        self.accept((time, bodies), (estimate, exchanged), last_good)
     }
 
     /// Takes a state, and the bodies in it, as the last good one.
     #[inline]
     fn accept(
         &mut self,
-        (time, of_integration): (S, &C::State<S>),
-        state: M::State<S>,
-        estimate: Option<S>,
+        (time, state): (S, M::State<S>),
+        (estimate, exchanged): (Option<S>, (Option<S>, Option<Work<S>>)),
         last_good: &mut (S, M::State<S>),
     ) -> Result<(), Fault> {
         if let Some(monitor) = &mut self.monitor {
             self.dynamics
-                .monitor(monitor, time, of_integration, &state, estimate);
+                .monitor(monitor, (time, &state), estimate, exchanged);
             let unconverged = self.dynamics.iterations().unconverged;
             monitor.accept_unconverged_evaluations(unconverged, time);
         }

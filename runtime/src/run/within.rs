@@ -59,8 +59,7 @@ pub(crate) fn judge<S, M, F, A, C>(
     A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
-    let forces = dynamics.all_forces(time, &with_unit_orientations::<S, M>(state));
-    monitor.judge((dynamics.constants(), time), [state, better], &forces);
+    monitor.judge((dynamics.constants(), time), [state, better]);
 }
 
 /// Looks into the last step of an integration, or into what comes before an event within it, before
