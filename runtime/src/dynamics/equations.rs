@@ -18,7 +18,11 @@ use crate::mechanism::at::StateAt;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
-use crate::monitor::{Monitor, Seen};
+use crate::monitor::{Monitor, Seen, Work};
+
+/// The power (W) of forces and drivers where a step ends, and their work over it where it was looked
+/// for; `None` where it is not known.
+pub(crate) type Exchanged<S> = (Option<S>, Option<Work<S>>);
 
 /// The equations of motion of a run.
 pub(crate) trait Equations<S: Real, M: Mechanism>: Evaluate<S, M> {
@@ -108,8 +112,17 @@ pub(crate) trait Equations<S: Real, M: Mechanism>: Evaluate<S, M> {
     /// See [`Dynamics::name_smallest_pivot`].
     fn name_smallest_pivot(&self, monitor: &mut Monitor<S, M>);
 
-    /// See [`Dynamics::all_forces`].
-    fn all_forces(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S>;
+    /// See [`Dynamics::power_of_forces`].
+    fn power_of_forces(&self, time: S, bodies: &M::State<S>) -> S;
+
+    /// See [`Dynamics::monitor`].
+    fn monitor(
+        &mut self,
+        monitor: &mut Monitor<S, M>,
+        at: (S, &M::State<S>),
+        estimate: Option<S>,
+        exchanged: Exchanged<S>,
+    );
 
     /// See [`Dynamics::explained`].
     fn explained(&self, fault: Fault, absolute: Option<S>, at: StateAt<S, M>) -> Fault;
@@ -216,8 +229,18 @@ where
         Self::name_smallest_pivot(self, monitor);
     }
 
-    fn all_forces(&self, time: S, bodies: &M::State<S>) -> M::Velocities<S> {
-        Self::all_forces(self, time, bodies)
+    fn power_of_forces(&self, time: S, bodies: &M::State<S>) -> S {
+        Self::power_of_forces(self, time, bodies)
+    }
+
+    fn monitor(
+        &mut self,
+        monitor: &mut Monitor<S, M>,
+        at: (S, &M::State<S>),
+        estimate: Option<S>,
+        exchanged: Exchanged<S>,
+    ) {
+        Self::monitor(self, monitor, at, estimate, exchanged);
     }
 
     fn explained(&self, fault: Fault, absolute: Option<S>, at: StateAt<S, M>) -> Fault {

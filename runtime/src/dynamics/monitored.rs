@@ -8,7 +8,7 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Plain, Terms};
 use crate::mechanism::orientations::with_unit_orientations;
-use crate::monitor::{Beginning, Monitor, MonitoredStep, Seen};
+use crate::monitor::{Beginning, Monitor, MonitoredStep, Seen, Work};
 use crate::state::vector::{Array, MovingState, StateParts, Vector as _};
 
 /// Of how many steps one is evaluated again for the bias of a penalty, which changes as slowly as
@@ -73,15 +73,15 @@ where
         self.seen = seen;
     }
 
-    /// Shows the end of a step to the monitor: a state, and the bodies in it.
+    /// Shows the end of a step to the monitor: the bodies there, and the power of the forces, with
+    /// their work where it was looked for.
     #[inline]
     pub(crate) fn monitor(
         &mut self,
         monitor: &mut Monitor<S, M>,
-        time: S,
-        state: &C::State<S>,
-        bodies: &M::State<S>,
+        (time, bodies): (S, &M::State<S>),
         estimate: Option<S>,
+        (power, work): (Option<S>, Option<Work<S>>),
     ) {
         let constants = self.constants();
         let index = monitor.steps();
@@ -95,7 +95,8 @@ where
             motion: monitor.motion(time, bodies),
             look: look.as_ref(),
             estimate,
-            power: self.power_with(monitor.stagger(time), time, state, bodies),
+            power,
+            work,
             pivot: self.pivot(index, time, bodies),
             norm_drift: self.seen.drift,
             is_normalised: !C::Orientation::NORMALISED_RATES,
@@ -142,10 +143,13 @@ where
         }
     }
 
-    /// The same where velocities are ahead of coordinates by some time (s): at the coordinates and
+    /// The power (W) of all forces without a potential, and of drivers; `None` where there are
+    /// none, or it is not known.
+    ///
+    /// Where velocities are ahead of coordinates by some time (s) it is that at the coordinates and
     /// the time that they belong to, else the work of what goes with a coordinate adds up wrongly.
     #[inline]
-    fn power_with(
+    pub(crate) fn power_with(
         &self,
         lead: Option<S>,
         time: S,
@@ -164,8 +168,6 @@ where
         self.power(time - lead, &state, &bodies)
     }
 
-    /// The power (W) of all forces without a potential, and of drivers; `None` where there are
-    /// none, or it is not known.
     #[inline]
     fn power(&self, time: S, state: &C::State<S>, bodies: &M::State<S>) -> Option<S> {
         if M::REPORT.time.constraints {
@@ -175,12 +177,18 @@ where
             return None;
         }
         let by_load = self.power_by_load(time, state, bodies)?;
-        let mut power = M::power(self.constants(), time, bodies) + by_load;
+        Some(self.power_of_forces(time, bodies) + by_load)
+    }
+
+    /// The power (W) of the forces of the description without a potential, and of a closure.
+    #[inline]
+    pub(crate) fn power_of_forces(&self, time: S, bodies: &M::State<S>) -> S {
+        let power = M::power(self.constants(), time, bodies);
         if A::PRESENT {
             let applied = self.applied(time, &with_unit_orientations::<S, M>(bodies));
-            power = plus_dot(power, applied.as_slice(), bodies.velocities().as_slice());
+            return plus_dot(power, applied.as_slice(), bodies.velocities().as_slice());
         }
-        Some(power)
+        power
     }
 
     /// The same with drivers, whose multipliers work against `Phi_t`: by an evaluation in its own

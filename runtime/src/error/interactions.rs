@@ -55,7 +55,7 @@ pub(super) fn say(fault: &Fault, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             limit,
         } => write!(
             f,
-            "`{joint}` is at {}, beyond its limit of {}: start between the limits, and let no handler leave them; `.without_limits()` passes those of the description",
+            "`{joint}` is at {}, beyond its limit of {}: what starts, drives, sets or balances it must stay between its limits; `.without_limits()` passes those of the description",
             Given(value),
             Given(limit)
         ),

@@ -1,13 +1,33 @@
 //! The balance of energy: the work of forces, summed from step to step, and the change of energy.
 //!
-//! Work is summed by a parabola through three steps. Its difference from the trapezoid counts as
-//! unknown; a smaller change of energy counts as none.
+//! Work is summed by a parabola through the ends of two steps. Its difference from the trapezoid
+//! counts as unknown; a smaller change of energy counts as none. Where that difference is large,
+//! the ends do not tell the work, and a run is asked to look for it within the step.
 
 use super::limits::DIGITS;
+use super::record::Work;
 use crate::math::scalar::Real;
 
 /// Work over what is exchanged, whatever its sign, that sets no phase of its own.
 const NEXT_TO_NOTHING: f64 = 1e-3;
+
+/// What ends of a step leave unknown of its work, over what steps leave on average, from which on
+/// a step is looked into. It is so of an eighth of the steps at the most: powers jump in one, or it
+/// is the first one after many short ones.
+const OUTLIER: f64 = 8.0;
+
+/// What they leave unknown over the work itself, of a step before which nothing is known.
+const FIRST: f64 = 0.1;
+
+/// What is worth a look, over what is exchanged. A change of energy by a hundredth tells.
+const WORTH: f64 = 1e-6;
+
+/// To what part of what was unknown it is looked for.
+const BETTER: f64 = 1e-2;
+
+/// The same over what is exchanged, where points pass each other closely: a passage is of some
+/// hundred steps, and the errors of many passages add up.
+const CLOSELY: f64 = 1e-8;
 
 /// Change of energy against the work that was put in.
 #[derive(Clone, Copy, Debug)]
@@ -27,13 +47,16 @@ pub(super) struct Balance<S> {
     /// mechanism.
     parts: S,
     /// By how much the integral of the power may be off (J): what the parabola changes of the
-    /// trapezoid, step by step.
+    /// trapezoid, step by step, as far as no look within tells more.
     unsure: S,
-    /// What was not known of the work of first steps (J) before the second ones told.
+    /// What the ends of steps left unknown of their work (J), with the number of these steps, and
+    /// what those did before which nothing was known.
+    left: S,
+    counted: usize,
     late: S,
     /// The work whatever its sign (J).
     turnover: S,
-    /// The last power (W) and the time of it, and the divided difference before.
+    /// The last power (W) and the time of it, and the divided difference before, with its step (s).
     before: Option<(S, S)>,
     slope: Option<(S, S)>,
     /// What is not known of the work of a first step (J), until the next one tells.
@@ -57,6 +80,21 @@ pub(super) struct Mean<S> {
     pub(super) peak: S,
 }
 
+/// What the powers at ends of steps tell of the work of one.
+struct Ends<S> {
+    /// How long it was, and the step before (s).
+    step: S,
+    former: S,
+    /// The divided difference of the powers (W/s), and a sixth of that of two steps (W/s^2).
+    slope: S,
+    sixth: Option<S>,
+    /// The work (J) by the trapezoid, and whatever its sign.
+    trapezoid: S,
+    turnover: S,
+    /// What is not known of the work (J).
+    unknown: S,
+}
+
 impl<S: Real> Balance<S> {
     pub(super) fn new(kinetic: S, potential: S) -> Self {
         let zero = S::zero();
@@ -70,6 +108,8 @@ impl<S: Real> Balance<S> {
             parts: zero,
             unsure: zero,
             late: zero,
+            left: zero,
+            counted: 0,
             turnover: zero,
             before: None,
             slope: None,
@@ -151,44 +191,109 @@ impl<S: Real> Balance<S> {
         let [a, b] = work;
         let half = S::constant(0.5);
         self.work = self.work + half * (a + b);
-        self.unsure = self.unsure + half * (a - b).abs();
+        let unknown = half * (a - b).abs();
+        self.unsure = self.unsure + unknown;
+        self.late = self.late + unknown;
         self.turnover = self.turnover + half * (a.abs() + b.abs());
         self.exchanged = self.exchanged.max(self.work.abs());
     }
 
-    /// The integral of the power over a step, by the parabola through this step's ends and the end
-    /// before.
-    pub(super) fn add_work(&mut self, time: S, power: S) {
-        if let Some((then, last)) = self.before {
-            let step = time - then;
-            let slope = (power - last).quotient(step);
-            let mut work = S::constant(0.5) * step * (power + last);
-            let turnover = S::constant(0.5) * step * (power.abs() + last.abs());
-            self.turnover = self.turnover + turnover;
-            if let Some((former, former_step)) = self.slope {
-                let curvature = (slope - former).quotient(step + former_step);
-                let sixth = curvature * S::constant(1.0 / 6.0);
-                let bend = sixth * step * step * step;
-                work = work - bend;
-                self.unsure = self.unsure + bend.abs();
-                // Of a first step no parabola was known.
-                if let Some(unknown) = self.first.take() {
-                    let bend = sixth * former_step * former_step * former_step;
-                    work = work - bend;
-                    let known = (unknown - bend.abs()).max(S::zero());
-                    self.unsure = self.unsure - known;
-                    self.late = self.late + known;
-                }
-            } else {
-                let unknown = (power - last).abs() * step;
-                self.first = Some(unknown);
-                self.unsure = self.unsure + unknown;
+    /// What the powers at ends of steps tell of the work of the step to a power (W).
+    fn by_ends(&self, time: S, power: S) -> Option<Ends<S>> {
+        let (then, last) = self.before?;
+        let step = time - then;
+        let half = S::constant(0.5) * step;
+        let slope = (power - last).quotient(step);
+        let former = self.slope.map_or(S::zero(), |(_, former)| former);
+        let sixth = self.slope.map(|(before, _)| {
+            let curvature = (slope - before).quotient(step + former);
+            curvature * S::constant(1.0 / 6.0)
+        });
+        let unknown = match sixth {
+            Some(sixth) => sixth * step * step * step,
+            None => (power - last) * step,
+        };
+        Some(Ends {
+            step,
+            former,
+            slope,
+            sixth,
+            trapezoid: half * (power + last),
+            turnover: half * (power.abs() + last.abs()),
+            unknown: unknown.abs(),
+        })
+    }
+
+    /// The power (W) at the start of a step to a power, and to what precision (J) its work is to be
+    /// looked for within it; `None` where its ends tell. Points may be close that forces act
+    /// between.
+    pub(super) fn asks(&self, time: S, power: S, is_close: bool) -> Option<(S, S)> {
+        let ends = self.by_ends(time, power)?;
+        let (_, first) = self.before?;
+        let size = self.size();
+        if is_close {
+            return Some((first, S::constant(CLOSELY).max(S::EPSILON) * size));
+        }
+        let stands_out = if ends.sixth.is_some() {
+            let steps = S::constant(self.counted as f64);
+            ends.unknown * steps > S::constant(OUTLIER) * self.left
+        } else {
+            ends.unknown > S::constant(FIRST) * ends.turnover
+        };
+        let asks = stands_out && ends.unknown > S::constant(WORTH) * size;
+        asks.then(|| (first, S::constant(BETTER) * ends.unknown))
+    }
+
+    /// Takes the work of a step to a power (W): as it was looked for, or by the parabola through
+    /// its ends and the end before.
+    pub(super) fn add_work(&mut self, time: S, power: S, within: Option<Work<S>>) {
+        if let Some(ends) = self.by_ends(time, power) {
+            match within {
+                Some(within) => self.add_known(&ends, &within),
+                None => self.add_by_ends(&ends),
             }
-            self.work = self.work + work;
             self.exchanged = self.exchanged.max(self.work.abs());
-            self.slope = Some((slope, step));
+            self.slope = Some((ends.slope, ends.step));
         }
         self.before = Some((time, power));
+    }
+
+    fn add_known(&mut self, ends: &Ends<S>, within: &Work<S>) {
+        self.work = self.work + within.done;
+        self.unsure = self.unsure + within.unsure;
+        self.turnover = self.turnover + within.turnover;
+        let unknown = match ends.sixth {
+            Some(_) => ends.unknown,
+            None => (within.done - ends.trapezoid).abs(),
+        };
+        self.first = None;
+        self.count(unknown);
+    }
+
+    fn add_by_ends(&mut self, ends: &Ends<S>) {
+        self.work = self.work + ends.trapezoid;
+        self.turnover = self.turnover + ends.turnover;
+        self.unsure = self.unsure + ends.unknown;
+        let Some(sixth) = ends.sixth else {
+            self.first = Some(ends.unknown);
+            self.late = self.late + ends.unknown;
+            return;
+        };
+        let Ends { step, former, .. } = *ends;
+        self.work = self.work - sixth * step * step * step;
+        self.count(ends.unknown);
+        // Of a first step no parabola was known.
+        if let Some(unknown) = self.first.take() {
+            let bend = sixth * former * former * former;
+            self.work = self.work - bend;
+            self.unsure = self.unsure - (unknown - bend.abs()).max(S::zero());
+        }
+    }
+
+    /// Counts what the ends of a step left unknown (J).
+    fn count(&mut self, unknown: S) {
+        self.left = self.left + unknown;
+        self.counted = self.counted.saturating_add(1);
     }
 
     /// The energy that the mechanism exchanges (J).
@@ -225,7 +330,7 @@ impl<S: Real> Balance<S> {
     /// How much of the work is not known, whatever its sign: large where forces change faster than
     /// steps follow, and where they begin or end within what a few steps pass.
     pub(super) fn unknown_share(&self) -> S {
-        let unknown = self.unsure + self.late;
+        let unknown = self.left + self.late;
         if unknown > S::zero() {
             unknown.quotient(self.turnover)
         } else {
@@ -262,14 +367,34 @@ mod tests {
         for step in 0..=60 {
             let t = 0.1 * f64::from(step);
             let (v, power) = (t.sin(), t.sin() * t.cos());
-            balance.add_work(t, power);
+            balance.add_work(t, power, None);
             balance.level(t, 0.5 * v * v, 0.0);
         }
         assert!(balance.drift().abs() < 1e-3, "{}", balance.drift());
-        balance.add_work(6.1, 0.0);
+        balance.add_work(6.1, 0.0, None);
         balance.level(6.1, 5.0, 0.0);
         assert!(balance.drift() > 0.5);
         assert!(!balance.is_of_a_closed_system());
+    }
+
+    #[test]
+    fn work_that_ends_of_steps_do_not_tell_is_asked_for() {
+        let mut balance = Balance::new(1.0, 0.0);
+        let power = |t: f64| 2.0 + t.sin();
+        for step in 0..=60 {
+            let t = 0.1 * f64::from(step);
+            if step != 1 {
+                assert_eq!(balance.asks(t, power(t), false), None);
+            }
+            balance.add_work(t, power(t), None);
+        }
+        // It jumps in a step, or points are close.
+        assert!(balance.asks(6.1, power(6.1) + 1.0, false).is_some());
+        let (first, precision) = balance.asks(6.1, power(6.1), true).expect("it asks");
+        assert_eq!(first, power(6.0));
+        assert!(precision > 0.0 && precision < 1e-6);
+        balance.restart();
+        assert_eq!(balance.asks(6.1, 9.0, false), None);
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! Whether energy came or went that no force accounts for.
 //!
 //! It costs the power of the forces a step, an evaluation a step where there are drivers, and both
-//! energies at a look. Only it finds a penalty that multiplies the energy, and a damped motion that
-//! a tolerance feeds: `tests/tests/sound/outside.rs`, `tests/tests/silent/report.rs`.
+//! energies at a look. Within steps whose ends do not tell the work, it costs some more powers.
+//! Only it finds a penalty that multiplies the energy, and a damped motion that a tolerance feeds:
+//! `tests/tests/sound/outside.rs`, `tests/tests/silent/report.rs`.
 
 use super::balance::Balance;
 use super::limits::{self, above};
@@ -33,6 +34,8 @@ pub(super) struct Energy<S: Scalar, M: Mechanism> {
     balance: Balance<S>,
     /// The end of the last step, where potentials change with time by themselves.
     before: Option<(S, M::State<S>)>,
+    /// Whether points are close in the step under way that forces act between.
+    is_close: bool,
 }
 
 /// Bodies of one state with the user's own states of another.
@@ -57,14 +60,31 @@ impl<S: Real, M: Mechanism> Energy<S, M> {
         Self {
             balance: Balance::new(kinetic, potential),
             before: None,
+            is_close: false,
         }
+    }
+
+    /// Points are close in the step under way that forces act between.
+    pub(super) fn comes_close(&mut self) {
+        self.is_close = true;
+    }
+
+    /// See [`Balance::asks`]. Each power of a driver costs an evaluation, and a phase that drivers
+    /// lead is not late by what they exchange.
+    #[inline]
+    pub(super) fn asks(&self, end: S, power: S) -> Option<(S, S)> {
+        if M::REPORT.time.constraints {
+            return None;
+        }
+        self.balance.asks(end, power, self.is_close)
     }
 
     #[inline]
     pub(super) fn step(&mut self, step: &MonitoredStep<'_, S, M>) {
         if let Some(power) = step.power {
-            self.balance.add_work(step.end, power);
+            self.balance.add_work(step.end, power, step.work);
         }
+        self.is_close = false;
         if M::REPORT.time.potential {
             self.work_by_time(step);
         }
@@ -145,27 +165,9 @@ impl<S: Real, M: Mechanism> Energy<S, M> {
         })
     }
 
-    /// The same where the work of forces is not known, by what single steps gained (J).
-    pub(super) fn of_steps(&self, run: &RunFacts<S>, gained: S) -> Option<Warning> {
-        if run.rests || self.has_balance() {
-            return None;
-        }
-        let change = gained.quotient(self.balance.size() * run.lives);
-        let change = if gained == S::zero() { gained } else { change };
-        above(change.abs(), ENERGY).then(|| Warning::Energy {
-            change: change.to_f64(),
-            time: (run.start + run.duration).to_f64(),
-        })
-    }
-
-    /// Of a change that is small. Where the work of forces is not known so well, it is what single
-    /// steps gained (J).
-    pub(super) fn phase(&self, run: &RunFacts<S>, gained: S) -> Option<Warning> {
-        let mut change = self.balance.drift();
-        if change == S::zero() && gained != S::zero() && !M::REPORT.time.constraints {
-            change = gained.quotient(self.balance.size());
-        }
-        let change = change.quotient(run.lives);
+    /// Of a change that is small.
+    pub(super) fn phase(&self, run: &RunFacts<S>) -> Option<Warning> {
+        let change = self.balance.drift().quotient(run.lives);
         let shift = S::constant(0.5) * change.abs() * run.travel;
         let shift = (shift * run.part_of_vibrations).max(self.shift_of_orbits(run));
         let shift = shift.quotient(run.lives);

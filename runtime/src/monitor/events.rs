@@ -71,17 +71,13 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         PhaseError::<S, M>::is_due(self.travel.steps)
     }
 
-    /// Takes where the next step has led to at a time, where a rule of higher order leads, and the
-    /// forces there.
+    /// Takes where the next step has led to at a time, and where a rule of higher order leads.
     pub(crate) fn judge(
         &mut self,
         (constants, time): (&M::Constants<S>, S),
         ends: [&M::State<S>; 2],
-        forces: &M::Velocities<S>,
     ) {
-        let [end, better] = ends.map(|state| M::kinetic_energy(constants, state));
         let [missed, slower] = PhaseError::<S, M>::missed_by(ends);
-        self.phase_error.gain(end - better, (&missed, forces));
         let mut motions = [missed, slower, *ends[0].velocities()];
         // What a driver prescribes is never late.
         if M::REPORT.time.constraints {
@@ -94,6 +90,11 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
     pub(crate) fn restart(&mut self) {
         self.energy.restart();
         self.states.restart();
+    }
+
+    /// Points are close in the step under way, along whose line a force acts.
+    pub(crate) fn comes_close(&mut self) {
+        self.energy.comes_close();
     }
 
     /// Points pass each other closely in a step, along whose line a force acts; whether it turns

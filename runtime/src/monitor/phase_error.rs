@@ -53,8 +53,6 @@ pub(super) struct PhaseError<S: Scalar, M: Mechanism> {
     /// turned (rad), and of what the rate changed by.
     rate: S,
     cubes: [S; 2],
-    /// The energy (J) that steps gave to the motion, see [`PhaseError::energy`].
-    energy: S,
     /// The largest change of the rate of a body (rad/s), for methods whose velocities are ahead.
     changed: S,
     /// How many of their steps passed over an instant at which a force turns round.
@@ -73,7 +71,6 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
             model: ErrorModel::default(),
             rate: S::zero(),
             cubes: [S::zero(); 2],
-            energy: S::zero(),
             changed: S::zero(),
             passed: 0,
         }
@@ -139,18 +136,6 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         [missed, slower]
     }
 
-    /// Takes what kinetic energy (J) a step has gained that should not be, with what it has missed,
-    /// and the forces there.
-    pub(super) fn gain(
-        &mut self,
-        kinetic: S,
-        (missed, forces): (&M::Velocities<S>, &M::Velocities<S>),
-    ) {
-        let pairs = missed.as_slice().iter().zip(forces.as_slice());
-        let gained = pairs.fold(kinetic, |sum, (&x, &force)| (-force).fused(x, sum));
-        self.energy = gained.fused(S::constant(EVERY as f64), self.energy);
-    }
-
     /// Takes what a step that has led to a state has missed of coordinates and of velocities, and
     /// the velocities there.
     pub(super) fn judge(
@@ -189,12 +174,6 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         for (sum, most) in self.missed.iter_mut().zip(most) {
             *sum = most.fused(S::constant(EVERY as f64), *sum);
         }
-    }
-
-    /// The energy (J) that all steps together gave to the motion. It is what single ones gained
-    /// beside a rule of higher order, of kinetic energy and against the forces.
-    pub(super) fn energy(&self) -> S {
-        self.energy
     }
 
     /// What all steps have missed, whatever its direction: of coordinates, and of velocities beside

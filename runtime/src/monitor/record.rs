@@ -23,12 +23,25 @@ pub(crate) struct MonitoredStep<'a, S: Scalar, M: Mechanism> {
     /// The power (W) of all forces without a potential, drivers included; `None` where there are
     /// none.
     pub(crate) power: Option<S>,
+    /// Their work, where it was looked for within the step.
+    pub(crate) work: Option<Work<S>>,
     /// The relative pivot at its end; `None` where it was not looked at.
     pub(crate) pivot: Option<S>,
     /// The largest `| |p| - 1 |` of a body at its end, before it was corrected.
     pub(crate) norm_drift: S,
     /// Whether that was corrected, so that every step adds another.
     pub(crate) is_normalised: bool,
+}
+
+/// The work of forces over a step, as the power within it tells.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Work<S> {
+    /// The work (J).
+    pub(crate) done: S,
+    /// By how much it may be off (J).
+    pub(crate) unsure: S,
+    /// The same work whatever its sign (J).
+    pub(crate) turnover: S,
 }
 
 /// Violations and energies of a state.

@@ -13,10 +13,8 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         let run = &self.facts();
         let slip_of_round_off = self.round_off.speed(run);
         // What is told already is not told again.
-        let gained = self.phase_error.energy();
         let energy = self.energy.verdict(run);
-        let energy = energy.or_else(|| self.energy.of_steps(run, gained));
-        let phase = self.energy.phase(run, gained).filter(|_| energy.is_none());
+        let phase = self.energy.phase(run).filter(|_| energy.is_none());
         let long_run = self.round_off.long_run(run).filter(|_| phase.is_none());
         let singular = self.pivots.verdict(run);
         let vanishing = self.gradients.verdict(run);
@@ -54,7 +52,7 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             travel: travel.radians,
             fastest: travel.fastest,
             speeds: travel.speeds(),
-            rests: self.rest.lasts(),
+            rests: self.rest.lasts() || self.has_hardly_moved(),
             open: self.violations.largest(self.length),
             lives: self.memory.lives(&self.measure),
             fed: self.memory.fed(self.energy.gained()),
@@ -65,5 +63,11 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
             has_balance: self.energy.has_balance(),
             is_closed: self.energy.is_of_a_closed_system(),
         }
+    }
+
+    /// Whether all that was moved is below the digits of the positions, as where friction holds.
+    fn has_hardly_moved(&self) -> bool {
+        let reach = self.round_off.reach(self.length);
+        self.travel.radians * self.length <= self.round_off.way(S::zero(), reach)
     }
 }

@@ -55,6 +55,13 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         self.travel.time
     }
 
+    /// The power (W) of the forces at the start of a step to a power, and to what precision (J)
+    /// their work is to be looked for within it; `None` where the powers at ends of steps tell.
+    #[inline]
+    pub(crate) fn asks_for_work(&self, end: S, power: S) -> Option<(S, S)> {
+        self.energy.asks(end, power)
+    }
+
     /// How near the mechanism was at the last look, which was at the end of the last step or
     /// shortly before.
     pub(crate) fn last_nearness(&self, asked: Asked) -> Nearness<S> {

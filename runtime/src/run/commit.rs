@@ -1,5 +1,6 @@
 //! Steps of a driver: where an integration begins and ends, and what becomes of a step.
 
+use crate::dynamics::equations::Exchanged;
 use crate::error::Fault;
 use crate::integrate::TimeSpan;
 use crate::math::scalar::Real;
@@ -7,6 +8,7 @@ use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::{Begun, Driver, Taken};
 use crate::run::within::judge;
+use crate::run::worked::{begin_to_watch, worked};
 
 /// Of how many steps a closure is asked twice at the end, beside the first ones: now and then, at
 /// the cost of three calls.
@@ -30,7 +32,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         self.march.start(span, &last_good.bodies)?;
         if let (Some(monitor), false) = (&mut self.monitor, self.passing.goes_on(span.start)) {
             monitor.restart();
-            self.march.monitor_end(monitor, &last_good.bodies, None);
+            begin_to_watch(monitor, self.march, &last_good.bodies);
         }
         Ok(Begun {
             start: span.start,
@@ -49,12 +51,35 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     pub(crate) fn commit(
         &mut self,
         taken: &Taken<S, M>,
+        begun: &mut Begun<S>,
         last_good: &mut StateAt<S, M>,
     ) -> Result<(), Fault> {
         match &taken.event {
-            Some(event) => self.observe_event(*event, last_good),
-            None => self.observe(taken.end, taken.better.as_ref(), last_good),
+            Some(event) => self.observe_event(*event, begun, last_good),
+            None => self.observe(taken, begun, last_good),
         }
+    }
+
+    /// The power where a step ends, at its end or at an event, and its work where that is asked
+    /// for; before it is corrected.
+    #[inline]
+    fn exchanged(
+        &mut self,
+        at: (S, &M::State<S>),
+        is_event: bool,
+        begun: &mut Begun<S>,
+        near: &M::State<S>,
+    ) -> Exchanged<S> {
+        let Some(monitor) = self.monitor.as_ref().filter(|it| at.0 > it.time()) else {
+            return (None, None);
+        };
+        let before = self.march.counts().evaluations;
+        let exchanged = worked(monitor, self.march, at, is_event, near);
+        let looks = self.march.counts().evaluations.saturating_sub(before);
+        if looks > 1 || self.corrects() || self.settings.interacts {
+            begun.of_monitor = begun.of_monitor.saturating_add(looks);
+        }
+        exchanged
     }
 
     /// Whether what looks into a step have evaluated is of use to the run.
@@ -86,10 +111,11 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     #[inline]
     fn observe(
         &mut self,
-        time: S,
-        better: Option<&M::State<S>>,
+        taken: &Taken<S, M>,
+        begun: &mut Begun<S>,
         last_good: &mut StateAt<S, M>,
     ) -> Result<(), Fault> {
+        let time = taken.end;
         if self.may_defer() && self.march.defers(time - last_good.time) {
             last_good.time = time;
             self.steps = self.steps.saturating_add(1);
@@ -97,6 +123,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             return Ok(());
         }
         let mut state = self.march.bodies(&last_good.bodies);
+        let exchanged = self.exchanged((time, &state), false, begun, &last_good.bodies);
         if self.corrects() {
             state = self.corrected(time, state)?;
             self.march.replace(&state);
@@ -105,11 +132,12 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             self.march.hold_modes(&mut state)?;
         }
         if let Some(monitor) = &mut self.monitor {
-            if let Some(better) = better {
+            if let Some(better) = &taken.better {
                 judge(monitor, self.march.equations(), (time, &state), better);
             }
             let estimate = self.march.estimate();
-            self.march.monitor_end(monitor, &state, estimate);
+            let equations = self.march.equations_mut();
+            equations.monitor(monitor, (time, &state), estimate, exchanged);
         }
         self.accept(time, state, last_good)
     }
@@ -134,9 +162,11 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     fn observe_event(
         &mut self,
         At { time, mut bodies }: StateAt<S, M>,
+        begun: &mut Begun<S>,
         last_good: &mut StateAt<S, M>,
     ) -> Result<(), Fault> {
         self.passing.ends_with_a_jump();
+        let exchanged = self.exchanged((time, &bodies), true, begun, &last_good.bodies);
         if self.corrects() {
             bodies = self.corrected(time, bodies)?;
         }
@@ -151,7 +181,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         }
         if let Some(monitor) = &mut self.monitor {
             let estimate = self.march.estimate();
-            self.march.monitor_event(monitor, (time, &bodies), estimate);
+            let equations = self.march.equations_mut();
+            equations.monitor(monitor, (time, &bodies), estimate, exchanged);
         }
         self.accept(time, bodies, last_good)
     }

@@ -161,11 +161,13 @@ impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
     /// Accepts what the last step has reached (s), as the first run accepts its own.
     fn accept(&mut self, reached: S) -> Result<(), Fault> {
         self.is_open = false;
-        self.driver.commit(&self.taken, &mut self.at)?;
+        let Some((mut begun, until)) = self.segment else {
+            return Ok(());
+        };
+        let taken = &self.taken;
+        self.driver.commit(taken, &mut begun, &mut self.at)?;
         let is_event = self.taken.event.is_some();
-        if let Some((begun, until)) = self.segment
-            && (is_event || reached >= until)
-        {
+        if is_event || reached >= until {
             let length = until - begun.start;
             self.end_segment();
             self.driver.convert(&mut self.at);

@@ -65,6 +65,7 @@ pub(crate) mod trajectory;
 pub(crate) mod under_way;
 pub(crate) mod verification;
 pub(crate) mod within;
+mod worked;
 #[cfg(feature = "serde")]
 mod written;
 

@@ -34,8 +34,11 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let bodies = self.march.bodies_near(near);
         let ends = [(start, near), (end, &bodies)];
         let mut judged = judged::<S, M>(self.march.equations().constants(), ends, &self.passing);
-        if let (true, Some(monitor)) = (judged.passes, &mut self.monitor) {
-            monitor.passes(judged.turns.is_some());
+        if let (false, Some(monitor)) = (judged.is_far, &mut self.monitor) {
+            monitor.comes_close();
+            if judged.passes {
+                monitor.passes(judged.turns.is_some());
+            }
         }
         if self.passing.takes_all {
             return Ok(true);

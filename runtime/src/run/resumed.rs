@@ -9,6 +9,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::{Begun, Driver};
 use crate::run::past::{Past, PastSegment};
 use crate::run::under_way::Run;
+use crate::run::worked::begin_to_watch;
 use crate::state::vector::Array;
 
 /// By how much rates may differ from those of the run, relative to their size: another processor
@@ -123,7 +124,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         if let Some(monitor) = &mut self.driver.monitor {
             if past.monitor.is_none() {
                 monitor.restart();
-                self.driver.march.monitor_end(monitor, state, None);
+                begin_to_watch(monitor, self.driver.march, state);
             } else {
                 self.driver.march.equations_mut().recall(seen);
             }

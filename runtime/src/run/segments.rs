@@ -143,7 +143,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             if self.log.flow.is_break() {
                 break;
             }
-            self.driver.commit(&taken, last_good)?;
+            self.driver.commit(&taken, &mut begun, last_good)?;
             self.look_at_end(&taken, last_good);
             if self.log.flow.is_break() {
                 break;

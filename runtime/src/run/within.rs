@@ -27,8 +27,7 @@ pub(crate) fn judge<S: Real, M: Mechanism>(
     (time, state): (S, &M::State<S>),
     better: &M::State<S>,
 ) {
-    let forces = equations.all_forces(time, &with_unit_orientations::<S, M>(state));
-    monitor.judge((equations.constants(), time), [state, better], &forces);
+    monitor.judge((equations.constants(), time), [state, better]);
 }
 
 /// Looks into the last step of an integration, or into what comes before an event within it, before

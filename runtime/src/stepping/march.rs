@@ -18,7 +18,6 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::monitor::Monitor;
 use crate::state::vector::{MovingState, Vector};
 
 /// Elements of rates smaller than this part of the largest one are as large as this.
@@ -254,28 +253,22 @@ where
         better.map(|state| dynamics.bodies_near(&state, near))
     }
 
-    fn monitor_end(
-        &mut self,
-        monitor: &mut Monitor<S, M>,
-        bodies: &M::State<S>,
-        estimate: Option<S>,
-    ) {
-        if let Some((_, integration)) = &self.under_way {
-            let (time, state) = (integration.time(), integration.state());
-            self.dynamics
-                .monitor(monitor, time, state, bodies, estimate);
-        }
+    fn power_at_end(&self, lead: Option<S>, bodies: &M::State<S>) -> Option<S> {
+        let (_, integration) = self.under_way.as_ref()?;
+        let (time, state) = (integration.time(), integration.state());
+        self.dynamics.power_with(lead, time, state, bodies)
     }
 
-    fn monitor_event(
-        &mut self,
-        monitor: &mut Monitor<S, M>,
-        (time, bodies): (S, &M::State<S>),
-        estimate: Option<S>,
-    ) {
+    fn power_at_event(&self, lead: Option<S>, (time, bodies): (S, &M::State<S>)) -> Option<S> {
         let state = self.dynamics.nearest(bodies);
-        self.dynamics
-            .monitor(monitor, time, &state, bodies, estimate);
+        self.dynamics.power_with(lead, time, &state, bodies)
+    }
+
+    fn power_within(&mut self, time: S, near: &M::State<S>) -> Option<S> {
+        let (_, integration) = self.under_way.as_mut()?;
+        let state = integration.at(&mut self.dynamics, time).ok()?;
+        let bodies = self.dynamics.bodies_near(&state, near);
+        self.dynamics.power_with(None, time, &state, &bodies)
     }
 
     fn look_for_branches(&mut self) {

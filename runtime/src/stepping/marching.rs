@@ -8,7 +8,6 @@ use crate::error::Fault;
 use crate::integrate::{Counts, Memory, TimeSpan};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
-use crate::monitor::Monitor;
 
 /// What is known of a method and of what it moves.
 #[derive(Clone, Copy, Debug)]
@@ -134,21 +133,15 @@ pub(crate) trait Marching<S: Real, M: Mechanism> {
     /// Where a rule of higher order would have led in the last step.
     fn better_end(&mut self, near: &M::State<S>) -> Option<M::State<S>>;
 
-    /// Shows the monitor the end of the last step, with its bodies.
-    fn monitor_end(
-        &mut self,
-        monitor: &mut Monitor<S, M>,
-        bodies: &M::State<S>,
-        estimate: Option<S>,
-    );
+    /// The power (W) of forces and drivers at the end of the last step, of which the bodies are
+    /// known, see [`Dynamics::power_with`](crate::dynamics::Dynamics).
+    fn power_at_end(&self, lead: Option<S>, bodies: &M::State<S>) -> Option<S>;
 
-    /// Shows the monitor an event within the last step (s), with its bodies.
-    fn monitor_event(
-        &mut self,
-        monitor: &mut Monitor<S, M>,
-        event: (S, &M::State<S>),
-        estimate: Option<S>,
-    );
+    /// The same at an event within it (s).
+    fn power_at_event(&self, lead: Option<S>, event: (S, &M::State<S>)) -> Option<S>;
+
+    /// The same at a time (s) within the last step; `None` as well where there is no telling.
+    fn power_within(&mut self, time: S, near: &M::State<S>) -> Option<S>;
 
     /// Looks whether the last step has ended near to a singular configuration that the motion
     /// passes.

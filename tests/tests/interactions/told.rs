@@ -1,5 +1,6 @@
 //! What is told of modes, of their power, and of what goes wrong.
 
+use holonom::ImplicitMidpoint;
 use holonom::prelude::*;
 use holonom::run::InteractionMode::{AtUpper, Sticking};
 
@@ -138,4 +139,40 @@ fn a_driver_against_a_stop_is_named() {
         }
     );
     assert!(is_told, "{fault}");
+}
+
+/// Accelerations are constant within a mode, so that steps are exact, and each has a power of its
+/// own.
+#[test]
+fn steps_that_are_exact_have_no_warning_however_few_a_mode_has() {
+    let (block, h) = (block(4.0), Block::HANDLES);
+    let slide = h.slide.displacement();
+    let mut start = block.described_state().expect("described");
+    block
+        .set_displacement_rate(&mut start, h.slide, -6.0)
+        .expect("free");
+    let report = block
+        .simulation(StandardLagrange, Rk4::every(0.3))
+        .interactions([
+            Interaction::limits(slide, [-1.0, 1.0]).restitution(0.9),
+            Interaction::friction(slide, 1.0),
+        ])
+        .initial_state(start)
+        .run(0.0..=3.0, every(3.0), |_| ())
+        .expect("it bounces");
+    let said = report.warnings().to_string();
+    assert_eq!(said, "no warnings");
+}
+
+/// What friction holds moves by round-off only, which is compared with nothing.
+#[test]
+fn what_friction_holds_has_no_warning() {
+    let (block, h) = (block(4.0), Block::HANDLES);
+    let report = block
+        .simulation(StandardLagrange, ImplicitMidpoint::every(0.01))
+        .interactions([Interaction::friction(h.slide.displacement(), 10.0)])
+        .run(0.0..=1.0, every(1.0), |_| ())
+        .expect("it rests");
+    let said = report.warnings().to_string();
+    assert_eq!(said, "no warnings");
 }
