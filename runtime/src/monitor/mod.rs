@@ -10,7 +10,7 @@
 //! | violation | `violations.rs` | every sixteenth step, or as often as it may decay |
 //! | pivot and rank | `pivots.rs`, over `singular.rs` | every step, and within long ones |
 //! | gradient | `gradients.rs`, over `singular.rs` | as often as one may vanish |
-//! | energy | `energy.rs`, over `balance.rs` | power every step, or within it; energies every sixteenth |
+//! | energy | `energy.rs`, over `balance.rs` | power every step, energies every sixteenth |
 //! | phase | `phase_error.rs` | every fourth step of a method of order 2 |
 //! | orientation | `norm_drift.rs` | every step |
 //! | round-off | `round_off.rs` | the start |
