@@ -1,6 +1,7 @@
 //! What can go wrong at run time. Small enums, no strings; the last good state travels with them.
 //! What they say is in [`crate::message`].
 
+use crate::error::analysis::AnalysisFault;
 use crate::error::checkpoint::CheckpointFault;
 use crate::error::left_out::{LeavesOut, Unheeding};
 use crate::error::parameter::ParameterError;
@@ -374,33 +375,6 @@ pub enum Fault {
         /// The joint's field.
         joint: &'static str,
     },
-    /// More or fewer coordinates were chosen than there are degrees of freedom.
-    ChosenCount {
-        /// How many were chosen.
-        chosen: usize,
-        /// How many there are.
-        degrees_of_freedom: usize,
-    },
-    /// A coordinate was chosen twice.
-    ChosenTwice {
-        /// The joint's field.
-        joint: &'static str,
-    },
-    /// A joint was chosen as a coordinate that has several motions, or fewer than the one that was
-    /// asked for.
-    SeveralMotions {
-        /// The joint's field.
-        joint: &'static str,
-        /// How many rates it has.
-        motions: usize,
-    },
-    /// The free motion of a body was chosen that a joint carries in the spanning tree.
-    Carried {
-        /// The body's field.
-        body: &'static str,
-        /// The joint's field.
-        joint: &'static str,
-    },
     /// A state of joint coordinates does not satisfy the constraints: a loop is open, or its joints
     /// move against each other.
     NotAssembled {
@@ -410,49 +384,6 @@ pub enum Fault {
         quantity: Quantity,
         /// By how much, in the unit of the quantity.
         violation: f64,
-    },
-    /// The chosen coordinates do not determine the motion here: something can move while they stand
-    /// still. So near to such a configuration that the digits of a state do not tell how the others
-    /// move, it is the same.
-    NotDetermined {
-        /// The field of a joint, or of a free body, that can move.
-        joint: &'static str,
-    },
-    /// The chosen coordinates are not independent here: the equations that close loops restrict
-    /// them.
-    NotIndependent {
-        /// The field of a chosen joint.
-        joint: &'static str,
-    },
-    /// A position was asked for of a rate that belongs to no coordinate: an angular velocity of a
-    /// rotation in all directions.
-    NoPosition {
-        /// The field of the joint, or of the free body.
-        joint: &'static str,
-    },
-    /// An equilibrium was asked for while a coordinate moves on whose position something depends:
-    /// the motion is not steady.
-    NotSteady {
-        /// The joint's field.
-        joint: &'static str,
-    },
-    /// A joint was named whose motion is none of the chosen coordinates.
-    NotChosen {
-        /// The joint's field.
-        joint: &'static str,
-    },
-    /// A quantity was sought on which no acceleration depends, or none that the other unknowns do
-    /// not change in the same way.
-    NoEffect {
-        /// The field of the parameter, the input or the joint.
-        unknown: &'static str,
-    },
-    /// Equilibria were followed to where they end, or bend too sharply.
-    BranchEnds {
-        /// The field of the parameter, the input or the joint.
-        along: &'static str,
-        /// The last value at which there is one.
-        value: f64,
     },
     /// Angles that count turns were set, and their number is not that of the joint or force.
     CountedAngles {
@@ -504,6 +435,8 @@ pub enum Fault {
         /// The field of the force or state.
         law: &'static str,
     },
+    /// Coordinates cannot be chosen, or have no such equations or equilibrium.
+    Analysis(AnalysisFault),
     /// A parameter of the mechanism is not acceptable.
     Parameter(ParameterError),
 }
@@ -562,6 +495,12 @@ impl Quantity {
             Self::Speed => "m/s",
             Self::AngularVelocity => "rad/s",
         }
+    }
+}
+
+impl From<AnalysisFault> for Fault {
+    fn from(fault: AnalysisFault) -> Self {
+        Self::Analysis(fault)
     }
 }
 

@@ -403,34 +403,6 @@ impl fmt::Display for Fault {
                 f,
                 "what is to be set of joint `{joint}` is no motion that its equations leave free"
             ),
-            Self::ChosenCount {
-                chosen,
-                degrees_of_freedom,
-            } => {
-                let plural = if degrees_of_freedom == 1 { "" } else { "s" };
-                write!(
-                    f,
-                    "the mechanism has {degrees_of_freedom} degree{plural} of freedom: choose as many coordinates, not {chosen}"
-                )
-            }
-            Self::ChosenTwice { joint } => {
-                write!(f, "the motion of joint `{joint}` was chosen twice")
-            }
-            Self::SeveralMotions { joint, motions } => {
-                let plural = if motions == 1 { "" } else { "s" };
-                write!(
-                    f,
-                    "`{joint}` has {motions} motion{plural}: choose one of them by `Motion::of({joint}, 0)`"
-                )?;
-                match motions {
-                    0 | 1 => Ok(()),
-                    _ => write!(f, " to `Motion::of({joint}, {})`", motions - 1),
-                }
-            }
-            Self::Carried { body, joint } => write!(
-                f,
-                "`{body}` does not move freely: joint `{joint}` carries it in the spanning tree, and its motion can be chosen"
-            ),
             Self::NotAssembled {
                 joint,
                 quantity,
@@ -448,37 +420,6 @@ impl fmt::Display for Fault {
                     ),
                 }
             }
-            Self::NotDetermined { joint } => write!(
-                f,
-                "the chosen coordinates do not determine the motion here: `{joint}` can move while they stand still"
-            ),
-            Self::NotIndependent { joint } => write!(
-                f,
-                "the chosen coordinates are not independent here: closed loops restrict the motion of `{joint}`"
-            ),
-            Self::NoPosition { joint } => write!(
-                f,
-                "the angular velocities of `{joint}` are rates of no coordinates: an orientation is set and read by its body"
-            ),
-            Self::NotSteady { joint } => write!(
-                f,
-                "no steady motion: `{joint}` moves, and accelerations depend on where it is"
-            ),
-            Self::NotChosen { joint } => {
-                write!(
-                    f,
-                    "the motion of `{joint}` is none of the chosen coordinates"
-                )
-            }
-            Self::NoEffect { unknown } => write!(
-                f,
-                "`{unknown}` balances nothing here: no acceleration depends on it at its present value, or only as on the other unknowns"
-            ),
-            Self::BranchEnds { along, value } => write!(
-                f,
-                "no equilibrium leads on from `{along} = {}`: the branch ends there, or bends more sharply than steps can follow",
-                Measured(value)
-            ),
             Self::CountedAngles {
                 element,
                 counted,
@@ -503,6 +444,7 @@ impl fmt::Display for Fault {
                      known; {regular} are regular there"
                 )
             }
+            Self::Analysis(fault) => fault.fmt(f),
             Self::Parameter(error) => error.fmt(f),
         }
     }

@@ -1,8 +1,9 @@
 //! What can go wrong, and how it is said.
 //!
-//! Texts of faults are in `message.rs`. `Debug` of an error says the same as `Display`, because a
-//! `main` that returns an error prints `Debug`.
+//! Texts of faults are in `message.rs`, those of an analysis in `analysis.rs`. `Debug` of an error
+//! says the same as `Display`, because a `main` that returns an error prints `Debug`.
 
+mod analysis;
 mod checkpoint;
 mod interactions;
 mod kinds;
@@ -16,6 +17,7 @@ pub(crate) mod sentence;
 pub(crate) mod setting;
 mod switches;
 
+pub use analysis::AnalysisFault;
 pub use checkpoint::CheckpointFault;
 pub use kinds::{AngleSet, Fault, NotFinite, Quantity};
 pub use left_out::{LeavesOut, Unheeding};

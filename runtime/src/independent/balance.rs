@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use super::elimination::Elimination;
 use super::partition::write_rates;
 use super::{Equations, IndependentCoordinates};
-use crate::error::Fault;
+use crate::error::{AnalysisFault, Fault};
 use crate::math::scalar::Real;
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix};
@@ -87,9 +87,9 @@ where
                 .zip(rows)
                 .any(|(entry, size)| entry > size * S::EPSILON.sqrt());
             if rate != S::zero() && depends {
-                return Err(Fault::NotSteady {
+                return Err(Fault::Analysis(AnalysisFault::NotSteady {
                     joint: self.joint(number),
-                });
+                }));
             }
         }
         Ok(*state)

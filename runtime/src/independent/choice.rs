@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::degrees_of_freedom;
-use crate::error::Fault;
+use crate::error::{AnalysisFault, Fault};
 use crate::math::without_bounds::copied;
 use crate::mechanism::handle::{BodyHandle, JointHandle};
 use crate::mechanism::joint_kernels::{JointCoordinates, JointMotion};
@@ -78,7 +78,10 @@ impl<M: JointCoordinates, J> Coordinate<M> for JointHandle<M, J> {
         let (joint, motions) = (self.name(), Mover::Joint(self.index()).rates::<M>());
         match motions {
             0 | 1 => Motion::of(self, 0).place(),
-            motions => Err(Fault::SeveralMotions { joint, motions }),
+            motions => Err(Fault::Analysis(AnalysisFault::SeveralMotions {
+                joint,
+                motions,
+            })),
         }
     }
 }
@@ -91,11 +94,11 @@ impl<M: JointCoordinates> Coordinate<M> for Motion<M> {
         }
         Err(match (self.mover, self.mover.rates::<M>()) {
             (Mover::Joint(index), 0) => carries_nothing::<M>(index, joint),
-            (Mover::Body(index), 0) => Fault::Carried {
+            (Mover::Body(index), 0) => Fault::Analysis(AnalysisFault::Carried {
                 body: joint,
                 joint: carrier::<M>(index).unwrap_or(""),
-            },
-            (_, motions) => Fault::SeveralMotions { joint, motions },
+            }),
+            (_, motions) => Fault::Analysis(AnalysisFault::SeveralMotions { joint, motions }),
         })
     }
 }
@@ -218,16 +221,16 @@ pub(super) fn places<M: JointCoordinates, const N: usize>(
 ) -> Result<[usize; N], Fault> {
     let degrees_of_freedom = degrees_of_freedom::<M>();
     if N != degrees_of_freedom {
-        return Err(Fault::ChosenCount {
+        return Err(Fault::Analysis(AnalysisFault::ChosenCount {
             chosen: N,
             degrees_of_freedom,
-        });
+        }));
     }
     let chosen = chosen.places()?;
     for (number, (place, joint)) in chosen.iter().enumerate() {
         let mut before = chosen.iter().take(number);
         if before.any(|(other, _)| other == place) {
-            return Err(Fault::ChosenTwice { joint });
+            return Err(Fault::Analysis(AnalysisFault::ChosenTwice { joint }));
         }
     }
     Ok(chosen.map(|(place, _)| place))

@@ -8,7 +8,7 @@ use super::stability::negative;
 use super::varied::{Adjusted, Varied};
 use super::walk::{Spot, Walk};
 use super::{IndependentCoordinates, Linearised};
-use crate::error::{Fault, setting};
+use crate::error::{AnalysisFault, Fault, setting};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::copied;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix, JointRates};
@@ -157,11 +157,11 @@ where
     /// ```
     ///
     /// # Errors
-    /// - [`Fault::BranchEnds`] with the last value: equilibria end, or bend more sharply than steps
-    ///   can follow.
+    /// - [`AnalysisFault::BranchEnds`] with the last value: equilibria end, or bend more sharply
+    ///   than steps can follow.
     /// - [`Fault::NotConverged`] where the start is not near an equilibrium.
-    /// - [`Fault::NotSteady`], [`Fault::NotChosen`]; [`Fault::Setting`] for the step,
-    ///   [`Fault::Parameter`] for an end that is not finite.
+    /// - [`AnalysisFault::NotSteady`], [`AnalysisFault::NotChosen`]; [`Fault::Setting`] for the
+    ///   step, [`Fault::Parameter`] for an end that is not finite.
     /// - What [`IndependentCoordinates::linearise`] refuses.
     pub fn follow(
         &self,
@@ -222,10 +222,10 @@ where
         }
         let mut length = step;
         for _ in 0..points {
-            let ended = Fault::BranchEnds {
+            let ended = Fault::Analysis(AnalysisFault::BranchEnds {
                 along: varied.name(),
                 value: here.value.to_f64(),
-            };
+            });
             let shortest = step * S::constant(SHORTEST);
             // What cannot be searched through has led to another branch.
             let (next, passed) = loop {

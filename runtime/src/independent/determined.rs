@@ -13,7 +13,7 @@ use super::partition::{Partition, Standing, joint_rates, put_velocities, write_r
 use super::{Equations, IndependentCoordinates};
 use crate::constraints::row_units::characteristic_length;
 use crate::constraints::rows::Rows;
-use crate::error::{Fault, Quantity};
+use crate::error::{AnalysisFault, Fault, Quantity};
 use crate::math::scalar::Real;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::relative::{bodies_of, rates_of_motion};
@@ -113,7 +113,8 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// The same, also of a tree.
     ///
     /// # Errors
-    /// [`Fault::NotAssembled`], [`Fault::NotDetermined`], [`Fault::NotIndependent`].
+    /// [`Fault::NotAssembled`], [`AnalysisFault::NotDetermined`],
+    /// [`AnalysisFault::NotIndependent`].
     pub(super) fn known(
         &self,
         state: &M::JointState<S>,
@@ -142,9 +143,9 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             let unknown = RESOLVED * self.equations.resolved + open;
             let is_plain = unknown <= ROUGH * bound::<S>() * left;
             if !is_plain && !self.is_exact(state, (weakest, unknown, open), needs) {
-                return Err(Fault::NotDetermined {
+                return Err(Fault::Analysis(AnalysisFault::NotDetermined {
                     joint: M::JOINT_REPORT.mover_of_rate(weakest.column),
-                });
+                }));
             }
         }
         Ok(partition)

@@ -9,7 +9,7 @@ use super::elimination::set;
 use super::partition::{Partition, put_velocities, write_rates};
 use super::points::moved;
 use super::{Equations, IndependentCoordinates};
-use crate::error::Fault;
+use crate::error::{AnalysisFault, Fault};
 use crate::forward::{Forward, lifted};
 use crate::math::quaternion::product;
 use crate::math::scalar::{Real, Scalar};
@@ -97,7 +97,7 @@ pub(super) fn chosen(
     (place, joint): (usize, &'static str),
 ) -> Result<usize, Fault> {
     let number = places.iter().position(|&known| known == place);
-    number.ok_or(Fault::NotChosen { joint })
+    number.ok_or(Fault::Analysis(AnalysisFault::NotChosen { joint }))
 }
 
 /// What changes along a direction, by the number of a chosen coordinate or the place of a value.

@@ -214,9 +214,12 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ///
     /// # Errors
     /// - [`Fault::NotAssembled`]: the state does not satisfy the constraints.
-    /// - [`Fault::NotDetermined`]: the chosen coordinates do not determine the others here, or not
-    ///   to the digits that the state has.
-    /// - [`Fault::NotIndependent`]: closed loops restrict the chosen coordinates.
+    /// - [`AnalysisFault::NotDetermined`]: the chosen coordinates do not determine the others here,
+    ///   or not to the digits that the state has.
+    /// - [`AnalysisFault::NotIndependent`]: closed loops restrict the chosen coordinates.
+    ///
+    /// [`AnalysisFault::NotDetermined`]: crate::error::AnalysisFault::NotDetermined
+    /// [`AnalysisFault::NotIndependent`]: crate::error::AnalysisFault::NotIndependent
     pub fn mass(&self, state: &M::JointState<S>) -> Result<SMatrix<S, N, N>, Fault>
     where
         M: HasMassMatrix,

@@ -10,7 +10,7 @@ use nalgebra::SVector;
 use super::balance::longest;
 use super::partition::write_rates;
 use super::{Equations, IndependentCoordinates};
-use crate::error::Fault;
+use crate::error::{AnalysisFault, Fault};
 use crate::math::scalar::Real;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::relative::rates_of_motion;
@@ -75,10 +75,10 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
                 part *= 0.5;
             }
             let Some((there, _)) = next else {
-                return Err(Fault::NotDetermined {
+                return Err(Fault::Analysis(AnalysisFault::NotDetermined {
                     joint: weakest
                         .map_or("", |weakest| M::JOINT_REPORT.mover_of_rate(weakest.column)),
-                });
+                }));
             };
             state = there;
             if is_last && part >= 1.0 {

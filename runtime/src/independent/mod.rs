@@ -93,11 +93,13 @@ use crate::nonsmooth::described::check_limits;
 /// positive where they push the coordinate upwards.
 ///
 /// In a mechanism with loops the coordinates that are not chosen follow. Where they do not, because
-/// the chosen ones stand at a dead point, [`Fault::NotDetermined`] names a joint that can still
-/// move. States have to satisfy the constraints.
+/// the chosen ones stand at a dead point, [`AnalysisFault::NotDetermined`] names a joint that can
+/// still move. States have to satisfy the constraints.
 ///
 /// What it holds is prepared once; [`IndependentCoordinates::set_inputs`] and
 /// [`IndependentCoordinates::set_time`] change it without preparing again.
+///
+/// [`AnalysisFault::NotDetermined`]: crate::error::AnalysisFault::NotDetermined
 pub struct IndependentCoordinates<M: JointRates, const N: usize, S: Scalar = f64> {
     pub(crate) parameters: M::Parameters<S>,
     /// In absolute coordinates.
@@ -159,11 +161,16 @@ pub trait IndependentExt: JointRates {
     /// ```
     ///
     /// # Errors
-    /// - [`Fault::ChosenCount`]: more or fewer than there are degrees of freedom.
-    /// - [`Fault::SeveralMotions`]: a joint that has more than one.
-    /// - [`Fault::CarriesNothing`]: a joint that closes a loop or drives. [`Fault::Carried`]: a
-    ///   body that a joint carries.
-    /// - [`Fault::ChosenTwice`]; a parameter that is not acceptable.
+    /// - [`AnalysisFault::ChosenCount`]: more or fewer than there are degrees of freedom.
+    /// - [`AnalysisFault::SeveralMotions`]: a joint that has more than one.
+    /// - [`Fault::CarriesNothing`]: a joint that closes a loop or drives.
+    ///   [`AnalysisFault::Carried`]: a body that a joint carries.
+    /// - [`AnalysisFault::ChosenTwice`]; a parameter that is not acceptable.
+    ///
+    /// [`AnalysisFault::ChosenCount`]: crate::error::AnalysisFault::ChosenCount
+    /// [`AnalysisFault::SeveralMotions`]: crate::error::AnalysisFault::SeveralMotions
+    /// [`AnalysisFault::Carried`]: crate::error::AnalysisFault::Carried
+    /// [`AnalysisFault::ChosenTwice`]: crate::error::AnalysisFault::ChosenTwice
     fn coordinates<const N: usize>(
         &self,
         chosen: impl Chosen<Self, N>,

@@ -2,7 +2,7 @@
 
 use super::Equations;
 use super::elimination::{Elimination, Pivot, at, set};
-use crate::error::Fault;
+use crate::error::{AnalysisFault, Fault};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_kernels::Freedom;
 use crate::mechanism::joint_rates::JointRates;
@@ -133,9 +133,9 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
         );
         for column in (0..width).filter(|&column| is_dependent(column)) {
             let Some(row) = elimination.row(column) else {
-                return Err(Fault::NotDetermined {
+                return Err(Fault::Analysis(AnalysisFault::NotDetermined {
                     joint: M::JOINT_REPORT.mover_of_rate(column),
-                });
+                }));
             };
             let inverse = elimination.entry(row, column).reciprocal();
             for (of_chosen, &place) in partition.columns.iter_mut().zip(&self.places) {
@@ -154,9 +154,9 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
                     .abs()
                     .to_f64();
                 if left > S::EPSILON.to_f64().sqrt() * size {
-                    return Err(Fault::NotIndependent {
+                    return Err(Fault::Analysis(AnalysisFault::NotIndependent {
                         joint: M::JOINT_REPORT.mover_of_rate(place),
-                    });
+                    }));
                 }
             }
         }

@@ -10,7 +10,7 @@ use super::partition::{Partition, put_velocities, write_rates};
 use super::{Equations, IndependentCoordinates};
 use crate::assembly::assembled;
 use crate::constraints::projection::Projection;
-use crate::error::Fault;
+use crate::error::{AnalysisFault, Fault};
 use crate::math::scalar::Real;
 use crate::mechanism::joint_kernels::{Freedom, JointMotion};
 use crate::mechanism::joint_rates::JointRates;
@@ -32,8 +32,8 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// `pi`.
     ///
     /// # Errors
-    /// [`Fault::NoPosition`] for a chosen component of an angular velocity, which is the rate of no
-    /// coordinate.
+    /// [`AnalysisFault::NoPosition`] for a chosen component of an angular velocity, which is the
+    /// rate of no coordinate.
     pub fn positions(&self, state: &M::JointState<S>) -> Result<SVector<S, N>, Fault> {
         self.positions_of(state).map(SVector::from)
     }
@@ -45,7 +45,8 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             let (number, motion) = motion_at::<M>(place)?;
             let joint = motion.mover();
             let coordinate = M::JOINT_REPORT.coordinate(number, state);
-            let coordinate = coordinate.ok_or(Fault::NoPosition { joint })?;
+            let coordinate =
+                coordinate.ok_or(Fault::Analysis(AnalysisFault::NoPosition { joint }))?;
             *position = match place_of::<M>(motion).and_then(|place| state.turns().get(place)) {
                 Some(&counted) => turns::nearest(coordinate, counted),
                 None => coordinate,
@@ -62,8 +63,8 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// description do not count; [`IndependentCoordinates::check_limits`] asks for them.
     ///
     /// # Errors
-    /// [`Fault::StateNotFinite`]; [`Fault::NoPosition`] for a chosen component of an angular
-    /// velocity; what
+    /// [`Fault::StateNotFinite`]; [`AnalysisFault::NoPosition`] for a chosen component of an
+    /// angular velocity; what
     /// [`MechanismExt::assemble`](crate::MechanismExt::assemble) refuses; a choice that fails on
     /// the way.
     pub fn state(
@@ -144,7 +145,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             let next = self.stepped(&state, &wanted).or_else(|fault| {
                 let followed = self.followed(&state, &wanted);
                 followed.map_err(|own| match own {
-                    Fault::NotDetermined { .. } => own,
+                    Fault::Analysis(AnalysisFault::NotDetermined { .. }) => own,
                     _ => fault,
                 })
             });
@@ -344,5 +345,5 @@ fn given<S: Real, const N: usize>(numbers: [S; N]) -> Result<SVector<S, N>, Faul
 /// The motion that a rate belongs to, and its number.
 fn motion_at<M: JointRates>(rate: usize) -> Result<(usize, &'static JointMotion), Fault> {
     let motion = M::JOINT_REPORT.motion_of_rate(rate);
-    motion.ok_or(Fault::NoPosition { joint: "" })
+    motion.ok_or(Fault::Analysis(AnalysisFault::NoPosition { joint: "" }))
 }

@@ -8,7 +8,7 @@ use super::directions::chosen;
 use super::equilibrium::{HALVINGS, STEPS};
 use super::varied::{Adjusted, Varied};
 use super::{IndependentCoordinates, Linearised};
-use crate::error::Fault;
+use crate::error::{AnalysisFault, Fault};
 use crate::math::scalar::Real;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix};
 
@@ -59,10 +59,12 @@ where
     /// ```
     ///
     /// # Errors
-    /// - [`Fault::NotChosen`], [`Fault::ChosenTwice`]: no coordinate is held, or one twice.
+    /// - [`AnalysisFault::NotChosen`], [`AnalysisFault::ChosenTwice`]: no coordinate is held, or
+    ///   one twice.
     /// - [`Fault::Parameter`]: it would be held by a parameter that no mechanism can have, such as
     ///   a negative mass.
-    /// - [`Fault::NoEffect`]: a quantity that moves nothing which the other unknowns do not.
+    /// - [`AnalysisFault::NoEffect`]: a quantity that moves nothing which the other unknowns do
+    ///   not.
     /// - [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2).
     /// - What [`IndependentCoordinates::equilibrium`] refuses.
     pub fn trim<const K: usize>(
@@ -76,7 +78,7 @@ where
         for (place, held) in held.places()?.into_iter().enumerate() {
             let number = chosen(places, held)?;
             if numbers.iter().take(place).any(|&known| known == number) {
-                return Err(Fault::ChosenTwice { joint: held.1 });
+                return Err(AnalysisFault::ChosenTwice { joint: held.1 }.into());
             }
             numbers[place] = number;
         }
@@ -109,7 +111,7 @@ where
             let found = solved(&matrix, [right], &scales, &sizes);
             let ([way], [unexplained]) = (found.ways, found.unexplained);
             let without = numbers.iter().position(|&number| !found.has_pivot[number]);
-            let no_effect = without.map(|place| Fault::NoEffect {
+            let no_effect = without.map(|place| AnalysisFault::NoEffect {
                 unknown: sought[place].name(),
             });
             // What is held stays; in its place are the steps of the quantities.
@@ -127,7 +129,7 @@ where
                 && explained.all(|(off, floor)| off.abs() <= floor)
             {
                 if let Some(fault) = no_effect {
-                    return Err(fault);
+                    return Err(fault.into());
                 }
                 let ((space, rates), (state, _)) = trial(S::one()).unwrap_or((set, here));
                 space.off_jumps(&state)?;
@@ -157,7 +159,7 @@ where
                     space.adjust(of, value, &mut rates)?;
                 }
                 space.steady(state, &linear.by_positions, rates)?;
-                return Err(no_effect.unwrap_or_else(|| not_converged(taken, left)));
+                return Err(no_effect.map_or_else(|| not_converged(taken, left), Fault::from));
             };
             (set, here) = next;
         }

@@ -54,7 +54,11 @@ impl<M: JointRates> Varied<M> {
     /// The rate (rad/s, m/s) of a coordinate, such as the speed of a shaft in steady motion.
     ///
     /// # Errors
-    /// [`Fault::SeveralMotions`], [`Fault::CarriesNothing`], [`Fault::Carried`]: no such motion.
+    /// [`AnalysisFault::SeveralMotions`], [`Fault::CarriesNothing`], [`AnalysisFault::Carried`]: no
+    /// such motion.
+    ///
+    /// [`AnalysisFault::SeveralMotions`]: crate::error::AnalysisFault::SeveralMotions
+    /// [`AnalysisFault::Carried`]: crate::error::AnalysisFault::Carried
     pub fn rate(of: impl Coordinate<M>) -> Result<Self, Fault> {
         let (place, joint) = of.place()?;
         Ok(Self {

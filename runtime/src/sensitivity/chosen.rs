@@ -50,7 +50,9 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ///
     /// # Errors
     /// As [`IndependentCoordinates::mass`];
-    /// [`Fault::NotChosen`] for a direction that is none of the chosen coordinates.
+    /// [`AnalysisFault::NotChosen`] for a direction that is none of the chosen coordinates.
+    ///
+    /// [`AnalysisFault::NotChosen`]: crate::error::AnalysisFault::NotChosen
     pub fn sensitivities<const K: usize>(
         &self,
         start: &M::JointState<S>,

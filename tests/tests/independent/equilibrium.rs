@@ -1,5 +1,6 @@
 //! Equilibria and natural motions, against closed forms.
 
+use holonom::error::AnalysisFault;
 use holonom::prelude::*;
 use holonom_models::{CartPole, RodPendulum, SliderCrank};
 use nalgebra::{SMatrix, SVector};
@@ -98,9 +99,9 @@ fn what_is_not_steady_is_refused() -> Result<(), Fault> {
     let guess = space.state([0.3, 0.1, 0.1], [6.0, 0.5, 0.0])?;
     assert_eq!(
         space.equilibrium(&guess),
-        Err(Fault::NotSteady {
+        Err(Fault::Analysis(AnalysisFault::NotSteady {
             joint: "right_hinge"
-        })
+        }))
     );
     Ok(())
 }

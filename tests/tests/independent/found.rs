@@ -2,6 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
+use holonom::error::AnalysisFault;
 use holonom::independent::{Chosen, to_discrete};
 use holonom::mechanism::{HasInverse, HasJacobian, HasMassMatrix, Located};
 use holonom::prelude::*;
@@ -111,10 +112,10 @@ fn what_floats_has_coordinates() -> Result<(), Fault> {
     let carried = floating.coordinates([0, 1, 2, 3, 4, 5, 6].map(|k| Motion::free(h.arm, k)));
     assert_eq!(
         carried.err(),
-        Some(Fault::Carried {
+        Some(Fault::Analysis(AnalysisFault::Carried {
             body: "arm",
             joint: "hinge"
-        })
+        }))
     );
     Ok(())
 }
@@ -240,7 +241,10 @@ fn where_nothing_balances_there_is_no_equilibrium() -> Result<(), Fault> {
     let rest = space.equilibrium(&space.state([0.3, 0.2], [5.0, 0.0])?)?;
     assert!((space.positions(&rest)? - Vector2::new(0.3, 0.0)).norm() < 1e-15);
     let moving = space.equilibrium(&space.state([0.0, 0.2], [5.0, 5.0])?);
-    assert_eq!(moving, Err(Fault::NotSteady { joint: "sled" }));
+    assert_eq!(
+        moving,
+        Err(Fault::Analysis(AnalysisFault::NotSteady { joint: "sled" }))
+    );
     Ok(())
 }
 

@@ -3,6 +3,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
+use holonom::error::AnalysisFault;
 use holonom::prelude::*;
 use holonom::{Real, error::ParameterFault};
 use holonom_models::{FourBar, SliderCrank};
@@ -15,7 +16,7 @@ use super::linear::Linkage;
 fn told<T>(number: Result<T, Fault>, joints: &[&str]) -> Option<T> {
     match number {
         Ok(number) => Some(number),
-        Err(Fault::NotDetermined { joint: named }) => {
+        Err(Fault::Analysis(AnalysisFault::NotDetermined { joint: named })) => {
             assert!(joints.contains(&named), "{named}");
             None
         }

@@ -1,5 +1,6 @@
 //! Inputs, parameters and rates that hold a mechanism, against closed forms.
 
+use holonom::error::AnalysisFault;
 use holonom::independent::Varied;
 use holonom::prelude::*;
 use holonom_models::{CartPole, Panda, SliderCrank};
@@ -113,19 +114,36 @@ fn what_does_not_balance_is_refused_by_name() -> Result<(), Fault> {
     );
     // A rate of nothing that turns fast.
     let found = space.trim(&upright, [h.hinge], [Varied::rate(h.rail)?]);
-    assert_eq!(found.err(), Some(Fault::NoEffect { unknown: "rail" }));
+    assert_eq!(
+        found.err(),
+        Some(Fault::Analysis(AnalysisFault::NoEffect { unknown: "rail" }))
+    );
     let found = space.trim(&upright, (h.rail, h.hinge), [h.push; 2]);
-    assert_eq!(found.err(), Some(Fault::NoEffect { unknown: "push" }));
+    assert_eq!(
+        found.err(),
+        Some(Fault::Analysis(AnalysisFault::NoEffect { unknown: "push" }))
+    );
     let found = space.trim(&upright, [h.hinge, h.hinge], [h.push; 2]);
-    assert_eq!(found.err(), Some(Fault::ChosenTwice { joint: "hinge" }));
+    assert_eq!(
+        found.err(),
+        Some(Fault::Analysis(AnalysisFault::ChosenTwice {
+            joint: "hinge"
+        }))
+    );
     let nowhere = space.state([0.2, -0.1], [0.0, 1.0])?;
     let found = space.trim(&nowhere, [h.rail], [h.push]);
-    assert_eq!(found.err(), Some(Fault::NotSteady { joint: "hinge" }));
+    assert_eq!(
+        found.err(),
+        Some(Fault::Analysis(AnalysisFault::NotSteady { joint: "hinge" }))
+    );
     let (crank, h) = (SliderCrank::default(), SliderCrank::HANDLES);
     let space = crank.coordinates([h.bearing])?;
     let state = space.state([0.5], [0.0])?;
     let found = space.trim(&state, [h.guide], [Varied::rate(h.bearing)?]);
-    assert_eq!(found.err(), Some(Fault::NotChosen { joint: "guide" }));
+    assert_eq!(
+        found.err(),
+        Some(Fault::Analysis(AnalysisFault::NotChosen { joint: "guide" }))
+    );
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! Starts whose derivatives would open a joint.
 
 use holonom::Forward;
+use holonom::error::AnalysisFault;
 use holonom::prelude::*;
 
 /// A pendulum whose bob hangs at a parameter's length.
@@ -129,7 +130,7 @@ fn a_coordinate_that_follows() -> Result<(), Fault> {
     let refused = space.sensitivities(&start, [Direction::position(h.right_foot)]);
     assert!(matches!(
         refused.err(),
-        Some(Fault::NotChosen { .. } | Fault::CarriesNothing { .. })
+        Some(Fault::Analysis(AnalysisFault::NotChosen { .. }) | Fault::CarriesNothing { .. })
     ));
     Ok(())
 }
