@@ -14,14 +14,14 @@ use crate::formulation::Formulation;
 use crate::integrate::{OneStep as _, Rk4, System as _};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
-use crate::mechanism::at::StateAt;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
 use crate::monitor::{Monitor, Seen, Work};
 
-/// The power (W) of forces and drivers where a step ends, and their work over it where it was looked
-/// for; `None` where it is not known.
+/// The power (W) of forces and drivers where a step ends, and their work over it where it was
+/// looked for; `None` where it is not known.
 pub(crate) type Exchanged<S> = (Option<S>, Option<Work<S>>);
 
 /// The equations of motion of a run.
@@ -119,7 +119,7 @@ pub(crate) trait Equations<S: Real, M: Mechanism>: Evaluate<S, M> {
     fn monitor(
         &mut self,
         monitor: &mut Monitor<S, M>,
-        at: (S, &M::State<S>),
+        at: At<S, &M::State<S>>,
         estimate: Option<S>,
         exchanged: Exchanged<S>,
     );
@@ -236,7 +236,7 @@ where
     fn monitor(
         &mut self,
         monitor: &mut Monitor<S, M>,
-        at: (S, &M::State<S>),
+        at: At<S, &M::State<S>>,
         estimate: Option<S>,
         exchanged: Exchanged<S>,
     ) {

@@ -5,6 +5,7 @@ use super::{Dynamics, Evaluator, vanishes};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
+use crate::mechanism::at::At;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Plain, Terms};
 use crate::mechanism::orientations::with_unit_orientations;
@@ -79,7 +80,7 @@ where
     pub(crate) fn monitor(
         &mut self,
         monitor: &mut Monitor<S, M>,
-        (time, bodies): (S, &M::State<S>),
+        At { time, bodies }: At<S, &M::State<S>>,
         estimate: Option<S>,
         (power, work): (Option<S>, Option<Work<S>>),
     ) {

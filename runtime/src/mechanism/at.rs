@@ -21,3 +21,8 @@ impl<S: Real, B> At<S, B> {
         (self.time, &self.bodies)
     }
 }
+
+/// Bodies at a time (s).
+pub(crate) fn at<S, B>(time: S, bodies: B) -> At<S, B> {
+    At { time, bodies }
+}

@@ -27,7 +27,7 @@ const BETTER: f64 = 1e-2;
 
 /// The same over what is exchanged, where points pass each other closely: a passage is of some
 /// hundred steps, and the errors of many passages add up.
-const CLOSELY: f64 = 1e-8;
+const KNOWN_WELL: f64 = 1e-8;
 
 /// Change of energy against the work that was put in.
 #[derive(Clone, Copy, Debug)]
@@ -232,7 +232,7 @@ impl<S: Real> Balance<S> {
         let (_, first) = self.before?;
         let size = self.size();
         if is_close {
-            return Some((first, S::constant(CLOSELY).max(S::EPSILON) * size));
+            return Some((first, S::constant(KNOWN_WELL).max(S::EPSILON) * size));
         }
         let stands_out = if ends.sixth.is_some() {
             let steps = S::constant(self.counted as f64);

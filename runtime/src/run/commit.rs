@@ -4,7 +4,7 @@ use crate::dynamics::equations::Exchanged;
 use crate::error::Fault;
 use crate::integrate::TimeSpan;
 use crate::math::scalar::Real;
-use crate::mechanism::at::{At, StateAt};
+use crate::mechanism::at::{At, StateAt, at};
 use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::{Begun, Driver, Taken};
 use crate::run::within::judge;
@@ -65,12 +65,12 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     #[inline]
     fn exchanged(
         &mut self,
-        at: (S, &M::State<S>),
+        at: At<S, &M::State<S>>,
         is_event: bool,
         begun: &mut Begun<S>,
         near: &M::State<S>,
     ) -> Exchanged<S> {
-        let Some(monitor) = self.monitor.as_ref().filter(|it| at.0 > it.time()) else {
+        let Some(monitor) = self.monitor.as_ref().filter(|it| at.time > it.time()) else {
             return (None, None);
         };
         let before = self.march.counts().evaluations;
@@ -123,7 +123,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             return Ok(());
         }
         let mut state = self.march.bodies(&last_good.bodies);
-        let exchanged = self.exchanged((time, &state), false, begun, &last_good.bodies);
+        let exchanged = self.exchanged(at(time, &state), false, begun, &last_good.bodies);
         if self.corrects() {
             state = self.corrected(time, state)?;
             self.march.replace(&state);
@@ -137,7 +137,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             }
             let estimate = self.march.estimate();
             let equations = self.march.equations_mut();
-            equations.monitor(monitor, (time, &state), estimate, exchanged);
+            equations.monitor(monitor, at(time, &state), estimate, exchanged);
         }
         self.accept(time, state, last_good)
     }
@@ -166,7 +166,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         last_good: &mut StateAt<S, M>,
     ) -> Result<(), Fault> {
         self.passing.ends_with_a_jump();
-        let exchanged = self.exchanged((time, &bodies), true, begun, &last_good.bodies);
+        let exchanged = self.exchanged(at(time, &bodies), true, begun, &last_good.bodies);
         if self.corrects() {
             bodies = self.corrected(time, bodies)?;
         }
@@ -182,7 +182,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if let Some(monitor) = &mut self.monitor {
             let estimate = self.march.estimate();
             let equations = self.march.equations_mut();
-            equations.monitor(monitor, (time, &bodies), estimate, exchanged);
+            equations.monitor(monitor, at(time, &bodies), estimate, exchanged);
         }
         self.accept(time, bodies, last_good)
     }

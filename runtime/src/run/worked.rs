@@ -9,6 +9,7 @@ use crate::dynamics::equations::Exchanged;
 use crate::math::quaternion::{conjugate, product};
 use crate::math::scalar::Real;
 use crate::math::vec3::{cross, minus, norm, over, plus, read, times, write};
+use crate::mechanism::at::At;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::monitor::{Monitor, Work};
@@ -20,10 +21,10 @@ const FINEST: usize = 8;
 
 /// The rotation (rad) of a body in a step from which on its way is not compared with velocities:
 /// Simpson's rule misses a part of some 1e-6 of it.
-const FAR: f64 = 0.3;
+const TURNED_FAR: f64 = 0.3;
 
 /// What is left of the error of Simpson's rule by halves, over their difference.
-const LEFT: f64 = 1.0 / 15.0;
+const BY_HALVES: f64 = 1.0 / 15.0;
 
 /// The power (W) at the end of the last step, or at an event within it, where bodies stand so, and
 /// the work since the end of the one before where it is asked for. Before the end is corrected.
@@ -31,7 +32,7 @@ const LEFT: f64 = 1.0 / 15.0;
 pub(super) fn worked<S: Real, M: Mechanism>(
     monitor: &Monitor<S, M>,
     march: &mut dyn Marching<S, M>,
-    (end, bodies): (S, &M::State<S>),
+    At { time: end, bodies }: At<S, &M::State<S>>,
     is_event: bool,
     near: &M::State<S>,
 ) -> Exchanged<S> {
@@ -161,10 +162,10 @@ impl<S: Real, M: Mechanism> Worked<'_, S, M> {
         let after = Part::of(after, self.between(after)?);
         let done = before.work + after.work;
         let difference = done - part.work;
-        let is_smooth = S::constant(LEFT) * difference.abs() <= precision;
+        let is_smooth = S::constant(BY_HALVES) * difference.abs() <= precision;
         if is_smooth || depth == FINEST {
             // Where it is not smooth, the rule says nothing of what is left.
-            let left = S::constant(LEFT) * difference;
+            let left = S::constant(BY_HALVES) * difference;
             return Some(Work {
                 done: if is_smooth { done + left } else { done },
                 unsure: if is_smooth { left } else { difference }.abs(),
@@ -190,7 +191,7 @@ fn turns_far<S: Real, M: Mechanism>(nodes: &[M::State<S>; 3], step: S) -> bool {
     rigid.any(|body| {
         let is_fast = |node: &M::State<S>| {
             let spin: [S; 3] = read(node.velocities().as_slice(), body.velocity + 3);
-            let is_slow = norm(&spin) * step < S::constant(FAR);
+            let is_slow = norm(&spin) * step < S::constant(TURNED_FAR);
             !is_slow
         };
         nodes.iter().any(is_fast)
@@ -249,5 +250,5 @@ pub(super) fn begin_to_watch<S: Real, M: Mechanism>(
     let time = march.time();
     let power = march.power_at_end(monitor.stagger(time), bodies);
     let equations = march.equations_mut();
-    equations.monitor(monitor, (time, bodies), None, (power, None));
+    equations.monitor(monitor, At { time, bodies }, None, (power, None));
 }
