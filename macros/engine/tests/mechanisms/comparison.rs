@@ -98,7 +98,8 @@ impl<'a> Comparison<'a> {
         let (kernels, others) = match extent {
             Extent::Full => {
                 let kernels = Kernels::new(model);
-                let others = others(model, &kernels.plans, seed as usize);
+                let chosen = kernels.plans.as_ref().expect("bodies are fused");
+                let others = others(model, chosen, seed as usize);
                 (Some(kernels), others)
             }
             Extent::Quick => (None, vec![any(model, seed as usize)]),
