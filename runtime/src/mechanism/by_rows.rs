@@ -62,6 +62,10 @@ pub struct RowFactors<J, U, L> {
     entries: L,
 }
 
+/// The factors of a mechanism.
+type FactorsOf<S, M, L> =
+    RowFactors<<M as Mechanism>::Jacobian<S>, <M as Mechanism>::Velocities<S>, L>;
+
 /// [`Mechanism::factor`].
 #[inline(never)]
 pub fn factor_by_rows<S: Scalar, M: Mechanism, T: Terms, L: Array<S>>(
@@ -70,7 +74,7 @@ pub fn factor_by_rows<S: Scalar, M: Mechanism, T: Terms, L: Array<S>>(
     compliances: &M::Multipliers<S>,
     time: S,
     state: &M::State<S>,
-) -> (RowFactors<M::Jacobian<S>, M::Velocities<S>, L>, Pivot<S>) {
+) -> (FactorsOf<S, M, L>, Pivot<S>) {
     let mut inverse_mass = M::mass(constants);
     for mass in inverse_mass.as_mut_slice() {
         *mass = mass.reciprocal();
@@ -190,7 +194,7 @@ fn eliminate<S: Scalar>(profile: Profile, matrix: &mut [S], relative: &mut [S]) 
 #[inline(never)]
 pub fn solve_by_rows<S: Scalar, M: Mechanism, L: Array<S>>(
     profile: Profile,
-    factors: &RowFactors<M::Jacobian<S>, M::Velocities<S>, L>,
+    factors: &FactorsOf<S, M, L>,
     upper: &M::Velocities<S>,
     lower: &M::Multipliers<S>,
 ) -> (M::Velocities<S>, M::Multipliers<S>) {
