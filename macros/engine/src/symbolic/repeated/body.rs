@@ -1,6 +1,6 @@
 //! The function of a group, written anew over arguments.
 
-use super::{Finder, Leaf};
+use super::groups::{Finder, Leaf};
 use crate::symbolic::arena::{Arena, Expr, Input, Node};
 use crate::symbolic::table::Table;
 
