@@ -11,6 +11,8 @@ pub use crate::dynamics::likes::{Like, check_likes};
 pub use crate::error::ParameterFault;
 pub use crate::math::side::{above, below, side};
 pub use crate::math::spline::{Order, SplineFault, Table, evaluate_numbers};
+pub use crate::mechanism::by_rows::{Profile, RowFactors, factor_by_rows, solve_by_rows};
+pub use crate::mechanism::table::{Sources, angle_of, least};
 pub use crate::mechanism::{
     Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
     Driven, ElementPlace, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,

@@ -100,8 +100,20 @@ fn elements_are_what_single_fields_are() {
 
     let [array_kernels, kernels] = [&array, &single].map(Kernels::new);
     assert_eq!(counts(&array_kernels), counts(&kernels));
-    let plan = describe(&array, &array_kernels.plans.rigid, &array.layout());
-    let single_plan = describe(&single, &kernels.plans.rigid, &single.layout());
+    let plan = describe(
+        &array,
+        &array_kernels
+            .plans
+            .as_ref()
+            .expect("bodies are fused")
+            .rigid,
+        &array.layout(),
+    );
+    let single_plan = describe(
+        &single,
+        &kernels.plans.as_ref().expect("bodies are fused").rigid,
+        &single.layout(),
+    );
     assert_eq!(plain(&plan), single_plan);
 
     let [array, single] =
@@ -209,7 +221,11 @@ fn long_chains_are_in_order() {
     let text = chain(12).replace("if k == 0 { ground } else { links[k - 1] }", "ground");
     let model = model(&tokens(&text));
     let kernels = Kernels::new(&model);
-    let plan = describe(&model, &kernels.plans.rigid, &model.layout());
+    let plan = describe(
+        &model,
+        &kernels.plans.as_ref().expect("bodies are fused").rigid,
+        &model.layout(),
+    );
     let places: Vec<usize> = (0..12)
         .map(|k| {
             plan.find(&format!("links[{k}].w'"))

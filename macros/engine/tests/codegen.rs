@@ -47,7 +47,11 @@ fn plans_and_counts() {
     for (name, item) in SCENES {
         let model = model(&tokens(item));
         let kernels = Kernels::new(&model);
-        let plan = describe(&model, &kernels.plans.rigid, &model.layout());
+        let plan = describe(
+            &model,
+            &kernels.plans.as_ref().expect("bodies are fused").rigid,
+            &model.layout(),
+        );
         text += &format!("{name}\n  {plan}\n");
         for (kernel, count) in counts(&kernels) {
             text += &format!(

@@ -1,10 +1,10 @@
 //! Products with a Jacobian that is given by blocks.
 
-use crate::math::scalar::Real;
+use crate::math::scalar::Scalar;
 use crate::mechanism::report::Block;
 
 /// Adds `D d` to a sum.
-pub(crate) fn add_product<S: Real>(blocks: &[Block], jacobian: &[S], step: &[S], sum: &mut [S]) {
+pub(crate) fn add_product<S: Scalar>(blocks: &[Block], jacobian: &[S], step: &[S], sum: &mut [S]) {
     for block in blocks {
         let values = jacobian.get(block.offset..).unwrap_or(&[]);
         let rows = values.chunks(block.columns.max(1)).take(block.rows);
@@ -16,7 +16,7 @@ pub(crate) fn add_product<S: Real>(blocks: &[Block], jacobian: &[S], step: &[S],
 }
 
 /// Adds `D^T lambda` to a sum.
-pub(crate) fn add_loads<S: Real>(blocks: &[Block], jacobian: &[S], lambda: &[S], sum: &mut [S]) {
+pub(crate) fn add_loads<S: Scalar>(blocks: &[Block], jacobian: &[S], lambda: &[S], sum: &mut [S]) {
     for block in blocks {
         let values = jacobian.get(block.offset..).unwrap_or(&[]);
         let rows = values.chunks(block.columns.max(1)).take(block.rows);

@@ -9,6 +9,7 @@ pub(crate) mod absolute;
 pub(crate) mod at;
 pub(crate) mod blocks;
 pub(crate) mod body;
+pub(crate) mod by_rows;
 pub(crate) mod coordinates;
 pub(crate) mod handle;
 pub(crate) mod joint_kernels;
@@ -24,6 +25,7 @@ pub(crate) mod relative;
 pub(crate) mod report;
 pub(crate) mod setpoint;
 pub(crate) mod switch;
+pub(crate) mod table;
 pub(crate) mod terms;
 pub(crate) mod turns;
 

@@ -11,3 +11,4 @@ mod redundant;
 mod scales;
 mod screws;
 mod shapes;
+mod solved;

@@ -123,6 +123,18 @@ impl Frames {
         v
     }
 
+    /// The rotations of all frames into global axes, each by that of the frame that it is based on.
+    #[must_use]
+    pub(super) fn rotations(&self, arena: &mut Arena) -> Vec<[Triple; 3]> {
+        let mut rotations = vec![identity()];
+        for place in 1..self.frames.len() {
+            let frame = FrameId(place);
+            let base: [Triple; 3] = rotations[self.base(frame).0];
+            rotations.push(base.map(|row| self.down(arena, row, frame)));
+        }
+        rotations
+    }
+
     /// The steps from a frame to another: up to the base of a frame, or down to the frame.
     fn steps(&self, from: FrameId, to: FrameId) -> Vec<(FrameId, bool)> {
         let (mut from, mut to) = (from, to);

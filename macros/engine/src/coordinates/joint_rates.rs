@@ -15,6 +15,7 @@ use super::frames::Frames;
 use super::freedom::Freedom;
 use super::kinematics::{Kinematics, Moving};
 use super::links::Links;
+use super::origins::ToGround;
 use super::system::Reduced;
 use super::wrenches::{Wrench, inertial};
 use crate::model::{Asked, Model};
@@ -234,7 +235,7 @@ impl Reduced {
         let Self { links, scene, .. } = self;
         let arena = &mut scene.space.arena;
         let mut axes = vec![[ZERO; 3]; links.velocities];
-        let origins = links.origins_in_global_axes(arena);
+        let origins = links.origins_in_global_axes(arena, &ToGround::Stepwise);
         for (link, &origin) in links.links.iter().zip(&origins) {
             let global = |arena: &mut Arena, v: Triple| {
                 links.frames.turn(arena, v, link.frame, Frames::GROUND)

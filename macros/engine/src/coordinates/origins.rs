@@ -1,11 +1,37 @@
 //! Where origins of links are against those of their carriers, and how they move.
 
-use super::algebra::{add, scale};
-use super::frames::Frames;
+use super::algebra::{add, apply, scale};
+use super::frames::{FrameId, Frames};
 use super::freedom::Freedom;
 use super::links::Links;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::vector::{Triple, ZERO};
+
+/// How vectors are brought to global axes.
+#[derive(Clone, Debug)]
+pub(super) enum ToGround {
+    /// From frame to frame: what a single vector of few frames takes.
+    Stepwise,
+    /// By the rotation of each frame, which takes that of the one that it is based on: where all
+    /// vectors are wanted, no more than their number.
+    ByRotations(Vec<[Triple; 3]>),
+}
+
+impl ToGround {
+    /// Global components of a vector.
+    pub(super) fn turn(
+        &self,
+        arena: &mut Arena,
+        links: &Links,
+        v: Triple,
+        from: FrameId,
+    ) -> Triple {
+        match self {
+            Self::Stepwise => links.frames.turn(arena, v, from, Frames::GROUND),
+            Self::ByRotations(rotations) => apply(arena, rotations[from.place()], v),
+        }
+    }
+}
 
 impl Links {
     /// The origin of a link from that of its carrier, in the axes of the carrier's motion.
@@ -61,13 +87,13 @@ impl Links {
     }
 
     /// The origins of all links, in global axes.
-    pub(super) fn origins_in_global_axes(&self, arena: &mut Arena) -> Vec<Triple> {
+    pub(super) fn origins_in_global_axes(&self, arena: &mut Arena, way: &ToGround) -> Vec<Triple> {
         let mut origins: Vec<Triple> = Vec::new();
         for link in 0..self.links.len() {
             let carrier = self.links[link].carrier;
             let offset = self.offset(arena, link);
             let from = self.axes(carrier);
-            let offset = self.frames.turn(arena, offset, from, Frames::GROUND);
+            let offset = way.turn(arena, self, offset, from);
             let carrier = carrier.map_or(ZERO, |carrier| origins[carrier]);
             origins.push(add(arena, carrier, offset));
         }

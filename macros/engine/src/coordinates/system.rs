@@ -8,6 +8,7 @@ use super::frames::Frames;
 use super::handover::Handover;
 use super::kinematics::Kinematics;
 use super::links::{Links, Runs};
+use super::origins::ToGround;
 use super::wrenches::{Wrench, inertial};
 use crate::model::{BodyKind, Model};
 use crate::plan::Pivot;
@@ -148,7 +149,7 @@ impl Reduced {
     #[must_use]
     pub fn new(mut arena: Arena, model: &Model, links: Links, strategy: Strategy) -> Self {
         let motion = Kinematics::new(&mut arena, &links, ZERO);
-        let charts = charts(&mut arena, model, &links, &motion);
+        let charts = charts(&mut arena, model, &links, &motion, &ToGround::Stepwise);
         let first_counter = 2 * links.turns + links.rest;
         let known = |arena: &mut Arena, bodies, axis| links.angle(arena, bodies, axis);
         let mut scene = Scene::on(model, arena, &charts, first_counter, false, &known);
@@ -504,9 +505,30 @@ impl Elimination {
     }
 }
 
+impl Reduced {
+    /// The bodies by the rotations of all frames, over an arena that knows them by steps.
+    pub(super) fn charts_by_rotations(&self, arena: &mut Arena, model: &Model) -> Vec<Chart> {
+        let motion = Kinematics::new(arena, &self.links, ZERO);
+        let rotations = self.links.frames.rotations(arena);
+        charts(
+            arena,
+            model,
+            &self.links,
+            &motion,
+            &ToGround::ByRotations(rotations),
+        )
+    }
+}
+
 /// The bodies as functions of joint coordinates.
-fn charts(arena: &mut Arena, model: &Model, links: &Links, motion: &Kinematics) -> Vec<Chart> {
-    let origins = links.origins_in_global_axes(arena);
+fn charts(
+    arena: &mut Arena,
+    model: &Model,
+    links: &Links,
+    motion: &Kinematics,
+    way: &ToGround,
+) -> Vec<Chart> {
+    let origins = links.origins_in_global_axes(arena, way);
     let bodies = model.bodies.iter().zip(&links.bodies);
     bodies
         .map(|(body, standing)| {
@@ -514,7 +536,7 @@ fn charts(arena: &mut Arena, model: &Model, links: &Links, motion: &Kinematics) 
             let axes = links.axes(link);
             let frame = link.map_or(Frames::GROUND, |link| links.links[link].frame);
             let centre = links.in_axes(arena, standing.centre, link);
-            let arm = links.frames.turn(arena, centre, axes, Frames::GROUND);
+            let arm = way.turn(arena, links, centre, axes);
             let position = add(arena, link.map_or(ZERO, |link| origins[link]), arm);
             let mut chart = Chart {
                 position,
@@ -526,11 +548,11 @@ fn charts(arena: &mut Arena, model: &Model, links: &Links, motion: &Kinematics) 
             if let Some(link) = link {
                 let sweep = cross(arena, motion.spin[link], centre);
                 let velocity = add(arena, motion.velocity[link], sweep);
-                chart.velocity = links.frames.turn(arena, velocity, axes, Frames::GROUND);
+                chart.velocity = way.turn(arena, links, velocity, axes);
             }
             if body.kind == BodyKind::Rigid {
-                let columns = transpose(standing.axes)
-                    .map(|column| links.frames.turn(arena, column, frame, Frames::GROUND));
+                let columns =
+                    transpose(standing.axes).map(|column| way.turn(arena, links, column, frame));
                 chart.rotation = Some(transpose(columns));
                 if let Some(link) = link {
                     let spin = links.frames.turn(arena, motion.spin[link], axes, frame);

@@ -5,13 +5,15 @@ use quote::quote;
 
 use super::inputs::taken;
 use super::parts::{Frame, write_in_parts};
+use super::repeated::{Calls, Given, of_body, of_joint, written};
 use super::splines::prepared;
 use super::store;
 use super::straight_line::StraightLine;
 use super::writer::Writer;
-use crate::coordinates::kernels::JointKernels;
-use crate::model::Model;
+use crate::coordinates::kernels::{JointKernels, Meaning};
+use crate::model::{BodyKind, Model};
 use crate::symbolic::arena::Stage;
+use crate::symbolic::repeated::Repeated;
 use crate::syntax::words::local;
 
 /// The implementation, and the functions beside it.
@@ -117,6 +119,19 @@ impl Writer<'_, JointKernels> {
             quote!(#constants, #state,),
         );
         let kernels = self.kernels;
+        if let Some(calls) = self.repeated_bodies() {
+            let (statements, gathered) = (calls.statements, calls.gathered);
+            return quote! {
+                fn body_motions<__S: #facade::Scalar>(
+                    #constants: &Self::JointConstants<__S>,
+                    #state: &Self::JointState<__S>,
+                ) -> Self::BodyMotions<__S> {
+                    #unpack
+                    #statements
+                    #gathered
+                }
+            };
+        }
         let StraightLine {
             statements,
             outputs,
@@ -152,19 +167,21 @@ impl Writer<'_, JointKernels> {
             unpack: unpack.clone(),
         };
         let kernels = self.kernels;
-        let (line, parts) = write_in_parts(
-            (&kernels.joints.arena, &kernels.joints.outputs),
-            Stage::State,
-            &mut store::Kernel {
-                store: &mut self.store,
-            },
-            &frame,
-        );
-        self.parts.extend(parts);
         let StraightLine {
             statements,
             outputs,
-        } = line;
+        } = self.repeated_joints().unwrap_or_else(|| {
+            let (line, parts) = write_in_parts(
+                (&kernels.joints.arena, &kernels.joints.outputs),
+                Stage::State,
+                &mut store::Kernel {
+                    store: &mut self.store,
+                },
+                &frame,
+            );
+            self.parts.extend(parts);
+            line
+        });
         let (pairs, others) = outputs.split_at(2 * kernels.turns);
         let (rest, rates) = others.split_at(kernels.rest);
         let pairs = pairs.chunks(2).map(|pair| quote!([#(#pair),*]));
@@ -178,5 +195,66 @@ impl Writer<'_, JointKernels> {
                 #facade::__private::JointState::of_parts([#(#pairs),*], [#(#rest),*], [#(#rates),*])
             }
         }
+    }
+
+    /// How the bodies stand and move, link by link.
+    fn repeated_bodies(&mut self) -> Option<Calls> {
+        let (model, kernels) = (self.model, self.kernels);
+        if model.coordinates.fuse_bodies() {
+            return None;
+        }
+        let mut first = 0;
+        let mut groups: Vec<(usize, Vec<usize>)> = Vec::new();
+        for (body, described) in model.bodies.iter().enumerate() {
+            let numbers = match described.kind {
+                BodyKind::Rigid => 18,
+                BodyKind::Particle => 6,
+            };
+            // What carries a body stands before it.
+            let link = kernels.links.iter().position(|link| link.body == body);
+            let link = link.unwrap_or(kernels.links.len());
+            groups.push((link, (first..first + numbers).collect()));
+            first += numbers;
+        }
+        groups.sort_by_key(|&(link, _)| link);
+        let groups = groups.into_iter().map(|(_, group)| group).collect();
+        let repeated = Repeated::new(&kernels.bodies, groups, of_joint(kernels.turns))?;
+        let given = Given::of_joints(kernels.turns);
+        let calls = (&kernels.bodies.arena, &repeated);
+        let calls = written("body_motions", calls, &given, &mut self.store, self.facade)?;
+        self.parts.extend(calls.functions.clone());
+        Some(calls)
+    }
+
+    /// Joint coordinates of the bodies, link by link.
+    fn repeated_joints(&mut self) -> Option<StraightLine> {
+        let (model, kernels) = (self.model, self.kernels);
+        if model.coordinates.fuse_bodies() {
+            return None;
+        }
+        let groups = kernels.links.iter().map(|link| {
+            let further = 2 * kernels.turns;
+            let (coordinates, rates) = match link.meaning {
+                Meaning::Turn(_) => (2 * link.coordinate..2 * link.coordinate + 2, 1),
+                Meaning::Screw(..) => (2 * link.coordinate..2 * link.coordinate + 2, 1),
+                Meaning::Slide => (further + link.coordinate..further + link.coordinate + 1, 1),
+                Meaning::Ball => (further + link.coordinate..further + link.coordinate + 4, 3),
+            };
+            let velocity = further + kernels.rest + link.velocity;
+            coordinates.chain(velocity..velocity + rates).collect()
+        });
+        let layout = model.layout();
+        let repeated = Repeated::new(&kernels.joints, groups.collect(), of_body(&layout))?;
+        let given = Given::of_bodies(false);
+        let calls = (&kernels.joints.arena, &repeated);
+        let calls = written("joint_state", calls, &given, &mut self.store, self.facade)?;
+        self.parts.extend(calls.functions);
+        let gathered = calls.gathered;
+        Some(StraightLine {
+            statements: calls.statements,
+            outputs: (0..kernels.joints.outputs.len())
+                .map(|k| quote!(#gathered[#k]))
+                .collect(),
+        })
     }
 }

@@ -54,8 +54,7 @@ impl Writer<'_> {
         let state_kernels = self.state_kernels();
         let evaluations = self.evaluations();
         let dispatch = self.dispatch();
-        let solving = self.solving();
-        let (solvers, factors) = self.solvers();
+        let (solving, solvers, factors) = self.solving_by_bodies();
         let readouts = self.readouts();
         let initial = self.initial_state();
         let likes = self.likes();
@@ -295,6 +294,24 @@ impl Writer<'_> {
         let facade = self.facade;
         let (constants, state) = (local("constants"), local("state"));
         let unpack = Self::unpack();
+        if let Returned::Array(kind) = result
+            && let Some(called) = self.repeated(name, kernel, !time.is_empty())
+        {
+            let (statements, gathered) = (called.statements, called.gathered);
+            let name = format_ident!("{name}");
+            return quote! {
+                #[inline(never)]
+                fn #name<__S: #facade::Scalar>(
+                    #constants: &Self::Constants<__S>,
+                    #time
+                    #state: &Self::State<__S>,
+                ) -> #kind {
+                    #unpack
+                    #statements
+                    #gathered
+                }
+            };
+        }
         let frame = self.frame_of_state(name, time);
         let StraightLine {
             statements,

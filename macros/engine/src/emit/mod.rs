@@ -8,7 +8,9 @@
 //! `solver.rs` writes the solver once, for either kind of coordinates. `solution.rs` and
 //! `joint_solution.rs` say in which of its words they differ, and choose among evaluations.
 //!
-//! Long kernels: `docs/decisions/008-long-kernels.md`.
+//! Long kernels: `docs/decisions/008-long-kernels.md`. Where bodies are read and not run, kernels
+//! that do the same for many joints are functions and tables (`repeated.rs`), and the equations of
+//! the bodies are solved by loops (`by_rows.rs`): `docs/decisions/037-what-is-not-run.md`.
 //!
 //! Values. `parameters.rs` writes the checks of run-time values in `f64`. So `prepare`, which
 //! computes with them in any scalar, cannot fail; `update` runs both again. An input is a
@@ -23,6 +25,7 @@
 //! and documentation of a definition.
 
 pub mod assembly;
+mod by_rows;
 mod construction;
 mod coordinates;
 pub mod documentation;
@@ -40,6 +43,7 @@ mod nested;
 pub mod parameters;
 mod parts;
 mod readouts;
+mod repeated;
 pub mod report;
 mod rows;
 mod separations;

@@ -13,8 +13,24 @@ impl Writer<'_> {
         let facade = self.facade;
         let (constants, state, joint) = (local("constants"), local("state"), local("joint"));
         let unpack = Self::unpack();
+        let kernels = self.kernels;
+        let angles = &kernels.readouts.angles;
+        if let Some(calls) = self.repeated_each("joint_angle", angles) {
+            let (statements, gathered) = (calls.statements, calls.gathered);
+            return quote! {
+                fn joint_angle<__S: #facade::Scalar>(
+                    #constants: &Self::Constants<__S>,
+                    #state: &Self::State<__S>,
+                    #joint: usize,
+                ) -> #facade::__private::AngleParts<__S> {
+                    #unpack
+                    #statements
+                    #facade::__private::angle_of(#gathered)
+                }
+            };
+        }
         let mut arms = TokenStream::new();
-        for (place, kernel) in &self.kernels.readouts.angles {
+        for (place, kernel) in angles {
             let StraightLine {
                 statements,
                 outputs,
@@ -101,8 +117,24 @@ impl Writer<'_> {
         let facade = self.facade;
         let (constants, state, joint) = (local("constants"), local("state"), local("joint"));
         let unpack = Self::unpack();
+        let kernels = self.kernels;
+        let sides = &kernels.readouts.sides;
+        if let Some(calls) = self.repeated_each("joint_side", sides) {
+            let (statements, gathered) = (calls.statements, calls.gathered);
+            return quote! {
+                fn joint_side<__S: #facade::Scalar>(
+                    #constants: &Self::Constants<__S>,
+                    #state: &Self::State<__S>,
+                    #joint: usize,
+                ) -> __S {
+                    #unpack
+                    #statements
+                    #facade::__private::least(#gathered)
+                }
+            };
+        }
         let mut arms = TokenStream::new();
-        for (place, kernel) in &self.kernels.readouts.sides {
+        for (place, kernel) in sides {
             let StraightLine {
                 statements,
                 outputs,

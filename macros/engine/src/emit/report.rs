@@ -270,7 +270,10 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     });
     let time = explicit_time(&ExplicitTime::of(kernels), facade);
     let curved = is_curved(model, &kernels.gamma);
-    let plan = describe(model, &kernels.plans.rigid, &layout);
+    let plan = kernels.plans.as_ref();
+    let plan = plan.map_or("rows in turn".into(), |plans| {
+        describe(model, &plans.rigid, &layout)
+    });
     quote! {
         #facade::Report {
             name: #name,

@@ -37,13 +37,29 @@ impl Store {
 
     /// The expression that loads a value of a kernel's arena.
     pub fn load(&mut self, arena: &Arena, value: Expr) -> TokenStream {
+        let (is_coefficient, place, is_negative) = self.place(arena, value);
+        let array = local(if is_coefficient {
+            "coefficients"
+        } else {
+            "constants"
+        });
+        if is_negative {
+            quote!(-#array[#place])
+        } else {
+            quote!(#array[#place])
+        }
+    }
+
+    /// Whether a value of a kernel's arena is a coefficient or a constant, its place among these,
+    /// and whether its sign is turned.
+    pub(super) fn place(&mut self, arena: &Arena, value: Expr) -> (bool, usize, bool) {
         let stage = arena.stage(value);
         let value = self.import(arena, value);
         let is_coefficient = stage == Stage::Coefficient;
-        let (slots, array, first) = if is_coefficient {
-            (&mut self.coefficients, local("coefficients"), 0)
+        let (slots, first) = if is_coefficient {
+            (&mut self.coefficients, 0)
         } else {
-            (&mut self.constants, local("constants"), self.spline_numbers)
+            (&mut self.constants, self.spline_numbers)
         };
         let place = *self
             .places
@@ -52,11 +68,7 @@ impl Store {
                 slots.push(value.abs());
                 first + slots.len() - 1
             });
-        if value.is_negative() {
-            quote!(-#array[#place])
-        } else {
-            quote!(#array[#place])
-        }
+        (is_coefficient, place, value.is_negative())
     }
 
     /// Copies a value into the arena of the store.

@@ -1,8 +1,9 @@
 //! The kernels of a mechanism, as outputs over arenas.
 
 use super::Plan;
-use super::candidates::{Factorised, Plans, cheapest, first, solved};
+use super::candidates::{Factorised, Plans, cheapest, solved};
 use super::eliminate::Check;
+use super::profile::{Profile, compliances};
 use super::readouts::Readouts;
 use super::reference::by_numbers;
 use super::system::{System, Terms, applied_forces};
@@ -94,36 +95,51 @@ pub struct Kernels {
     /// The fused evaluations for all terms. None where the mechanism is described by its joints
     /// alone.
     pub evaluations: Vec<Evaluation>,
-    /// The gains of `Phi'` and of `Phi` in `gamma*`, for evaluations that are put together from
-    /// their parts.
-    pub gains: Option<Kernel>,
-    /// Factorisation and back-substitution.
+    /// Factorisation and back-substitution; likewise.
     pub solvers: Vec<Solver>,
-    /// The plans of the solutions.
-    pub plans: Plans,
+    /// The plans of the solutions; likewise.
+    pub plans: Option<Plans>,
+    /// What takes their place there.
+    pub by_rows: Option<ByRows>,
+}
+
+/// What loops over the rows need for the bodies' equations of motion, which a mechanism that runs
+/// by its joints solves seldom.
+#[derive(Clone, Debug)]
+pub struct ByRows {
+    /// The entries that are kept.
+    pub profile: Profile,
+    /// The gains of `Phi'` and of `Phi` in `gamma*`.
+    pub gains: Kernel,
+    /// The compliance of each row.
+    pub compliances: Kernel,
 }
 
 impl Kernels {
     /// Builds all kernels of a model.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        let is_fused = model.coordinates.fuse_bodies();
-        let factorised = if is_fused {
-            cheapest(model)
-        } else {
-            first(model)
-        };
-        let evaluations = is_fused.then(|| evaluations(model, &factorised));
-        let [rigid, compliant] = factorised;
-        let plans = Plans {
-            rigid: rigid.plan.clone(),
-            compliant: compliant.plan.clone(),
-        };
-        let solvers = vec![
-            back_substitution(rigid, Terms::Plain),
-            back_substitution(compliant, Terms::Compliant),
-        ];
         let scene = &Scene::new(model);
+        let (mut evaluations, mut solvers, mut plans, mut by_rows) = (vec![], vec![], None, None);
+        if model.coordinates.fuse_bodies() {
+            let factorised = cheapest(model);
+            evaluations = self::evaluations(model, &factorised);
+            let [rigid, compliant] = factorised;
+            plans = Some(Plans {
+                rigid: rigid.plan.clone(),
+                compliant: compliant.plan.clone(),
+            });
+            solvers = vec![
+                back_substitution(rigid, Terms::Plain),
+                back_substitution(compliant, Terms::Compliant),
+            ];
+        } else {
+            by_rows = Some(ByRows {
+                profile: Profile::new(model),
+                gains: gains(),
+                compliances: compliances(scene),
+            });
+        }
         let (jacobian, blocks) = jacobian(scene, model);
         let minus = -Arena::ONE;
         let (one, zero) = (Arena::ONE, Arena::ZERO);
@@ -159,10 +175,10 @@ impl Kernels {
                 vec![scene.space.arena.sum(powers)]
             }),
             readouts: Readouts::new(scene, model),
-            evaluations: evaluations.unwrap_or_default(),
-            gains: (!is_fused).then(gains),
+            evaluations,
             solvers,
             plans,
+            by_rows,
         }
     }
 }

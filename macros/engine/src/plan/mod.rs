@@ -53,6 +53,7 @@ mod fill;
 mod inverse;
 pub mod kernels;
 mod order;
+pub mod profile;
 mod reach;
 pub mod readouts;
 mod reference;

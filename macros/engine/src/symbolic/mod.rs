@@ -35,6 +35,7 @@
 //! right-hand side. Stages split the code into `prepare`, `take_inputs`, `coefficients`, the
 //! kernels, `factor` and `solve`. What is known earlier is computed once, there. A product of
 //! inputs and coefficients is left to the kernels (`Stage::with`), so either can change alone.
+//! Module `repeated` finds what a kernel does for many joints or bodies in the same way.
 //! Module `gather` goes through the outputs once more and takes common numbers out of sums.
 
 pub mod arena;
@@ -53,6 +54,7 @@ mod kept;
 pub mod left_out;
 pub mod motion;
 mod node;
+pub mod repeated;
 pub mod rotation;
 pub mod scene;
 pub mod separation;

@@ -98,7 +98,10 @@ impl<'a> Comparison<'a> {
         let (kernels, others) = match extent {
             Extent::Full => {
                 let kernels = Kernels::new(model);
-                let others = others(model, &kernels.plans, seed as usize);
+                // One that runs by its joints has none for its bodies.
+                let chosen = kernels.plans.as_ref();
+                let others = chosen.map(|chosen| others(model, chosen, seed as usize));
+                let others = others.unwrap_or_default();
                 (Some(kernels), others)
             }
             Extent::Quick => (None, vec![any(model, seed as usize)]),

@@ -8,4 +8,5 @@ mod declaration;
 mod dense;
 mod library;
 mod pivots;
+mod repeated;
 mod trees;
