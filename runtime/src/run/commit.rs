@@ -47,7 +47,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     }
 
     /// Corrects what a step has reached, shows it to the monitor, and accepts it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn commit(
         &mut self,
         taken: &Taken<S, M>,
@@ -73,10 +73,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let Some(monitor) = self.monitor.as_ref().filter(|it| at.time > it.time()) else {
             return (None, None);
         };
-        let before = self.march.counts().evaluations;
-        let exchanged = worked(monitor, self.march, at, is_event, near);
-        let looks = self.march.counts().evaluations.saturating_sub(before);
-        if looks > 1 || self.corrects() || self.settings.interacts {
+        let (exchanged, looks) = worked(monitor, self.march, at, is_event, near);
+        if looks > 1 || looks > 0 && (self.corrects() || self.settings.interacts) {
             begun.of_monitor = begun.of_monitor.saturating_add(looks);
         }
         exchanged
@@ -87,10 +85,10 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if was_interpolated {
             // With reports, which find what interpolation needs where a look has evaluated it, or
             // evaluate for each time anew.
-            self.march.counts().evaluations == taken.evaluations
+            self.march.counts().evaluations == taken.looks.evaluations
         } else {
             // Or as the slope at the start of the next step.
-            taken.looks <= 1 && !self.corrects() && !self.settings.interacts
+            taken.looks.looks <= 1 && !self.corrects() && !self.settings.interacts
         }
     }
 
@@ -108,7 +106,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
 
     /// Corrects the end of the last step, and shows it to the monitor, with where a rule of higher
     /// order would have led.
-    #[inline]
+    #[inline(always)]
     fn observe(
         &mut self,
         taken: &Taken<S, M>,
@@ -188,7 +186,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     }
 
     /// Takes a state, and the bodies in it, as the last good one.
-    #[inline]
+    #[inline(always)]
     fn accept(
         &mut self,
         time: S,

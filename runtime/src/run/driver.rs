@@ -11,6 +11,7 @@ use crate::monitor::Monitor;
 use crate::run::events::list::Hybrid;
 use crate::run::passing::Passing;
 use crate::run::post_step::PostStabilisation;
+use crate::run::within::Looks;
 use crate::stepping::marching::{Marching, Settings};
 
 /// What a run moves, and what it remembers of the motion.
@@ -45,9 +46,8 @@ pub(crate) struct Taken<S: Real, M: Mechanism> {
     pub(crate) event: Option<StateAt<S, M>>,
     /// Where a rule of higher order would have led, where that is asked.
     pub(crate) better: Option<M::State<S>>,
-    /// Evaluations so far, and those of them that looked into the step.
-    pub(crate) evaluations: usize,
-    pub(crate) looks: usize,
+    /// What has looked into it.
+    pub(crate) looks: Looks,
 }
 
 impl<S: Real, M: Mechanism> Taken<S, M> {
@@ -56,8 +56,7 @@ impl<S: Real, M: Mechanism> Taken<S, M> {
             end: S::zero(),
             event: None,
             better: None,
-            evaluations: 0,
-            looks: 0,
+            looks: Looks::NONE,
         }
     }
 }
@@ -66,10 +65,6 @@ impl<S: Real, M: Mechanism> Taken<S, M> {
 #[derive(Clone, Copy)]
 pub(crate) struct Begun<S> {
     /// When (s).
-    #[cfg_attr(
-        not(feature = "std"),
-        expect(dead_code, reason = "checkpoints and trajectories need a heap")
-    )]
     pub(crate) start: S,
     /// What interpolants have evaluated for the monitor, which is no part of the run.
     pub(crate) of_monitor: usize,

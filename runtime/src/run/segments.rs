@@ -167,6 +167,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     }
 
     /// Shows what lies within a step: to trajectories, and to the observer.
+    #[inline(always)]
     fn look_within(
         &mut self,
         taken: &Taken<S, M>,
@@ -183,16 +184,17 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         #[cfg(not(feature = "std"))]
         let is_recorded = false;
         let has_reported = self.report_within(reached, last_good)?;
-        if taken.looks > 0
+        if taken.looks.looks > 0
             && self.log.flow.is_continue()
             && !self.driver.shares_looks(taken, has_reported || is_recorded)
         {
-            begun.of_monitor = begun.of_monitor.saturating_add(taken.looks);
+            begun.of_monitor = begun.of_monitor.saturating_add(taken.looks.looks);
         }
         Ok(())
     }
 
     /// Shows the end of a step as it was accepted. An event is shown with what happens there.
+    #[inline(always)]
     fn look_at_end(&mut self, taken: &Taken<S, M>, last_good: &mut StateAt<S, M>) {
         #[cfg(feature = "std")]
         self.record_end(last_good);

@@ -5,12 +5,12 @@ use crate::math::scalar::Real;
 use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::{Driver, Taken};
-use crate::run::within::look_within;
+use crate::run::within::{Looks, look_within};
 
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Takes a step, and looks into it for events and for the monitor. There are so
     /// many seconds left. False of one that must be shorter.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn take(
         &mut self,
         last_good: &mut StateAt<S, M>,
@@ -40,18 +40,15 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             time: start,
             bodies: ref near,
         } = last_good;
-        (taken.event, taken.better, taken.looks) = (None, None, 0);
+        (taken.event, taken.better, taken.looks) = (None, None, Looks::NONE);
         if self.looks_for_events() {
             taken.event = self.event_within((start, near), taken.end)?;
         }
         if let Some(monitor) = &mut self.monitor {
-            let before = self.march.counts().evaluations;
             if taken.event.is_none() && monitor.judges() {
                 taken.better = self.march.better_end(near);
             }
-            look_within(monitor, self.march, near, taken.end, taken.event.as_ref());
-            taken.evaluations = self.march.counts().evaluations;
-            taken.looks = taken.evaluations.saturating_sub(before);
+            taken.looks = look_within(monitor, self.march, near, taken.end, taken.event.as_ref());
         }
         Ok(true)
     }

@@ -30,6 +30,21 @@ pub(crate) fn judge<S: Real, M: Mechanism>(
     monitor.judge((equations.constants(), time), [state, better]);
 }
 
+/// Evaluations of an integration so far, and those of them that looked into the last step; zero
+/// where nothing did.
+#[derive(Clone, Copy)]
+pub(crate) struct Looks {
+    pub(crate) evaluations: usize,
+    pub(crate) looks: usize,
+}
+
+impl Looks {
+    pub(crate) const NONE: Self = Self {
+        evaluations: 0,
+        looks: 0,
+    };
+}
+
 /// Looks into the last step of an integration, or into what comes before an event within it, before
 /// its end is corrected or shown to the monitor: as far as pivots at the ends of its parts do not
 /// tell that the mechanism kept away from where one vanishes. The bodies stood near by a moment
@@ -42,12 +57,12 @@ pub(crate) fn look_within<S: Real, M: Mechanism>(
     near: &M::State<S>,
     step_end: S,
     event: Option<&StateAt<S, M>>,
-) {
+) -> Looks {
     let start = monitor.time();
     let end = event.map_or(step_end, |event| event.time);
     let asked = monitor.asks(end - start);
     if !(asked.pivot || asked.gradient) {
-        return;
+        return Looks::NONE;
     }
     let last = event.map_or_else(|| march.bodies_near(near), |event| event.bodies);
     let rate = monitor.faster(&last);
@@ -55,8 +70,9 @@ pub(crate) fn look_within<S: Real, M: Mechanism>(
     let known = march.equations().pivot_seen().filter(|_| event.is_none());
     let last = nearness(monitor, march.equations(), (end, &last), asked, known);
     if !monitor.may_pass(rate * (end - start), [first, last]) {
-        return;
+        return Looks::NONE;
     }
+    let before = march.counts().evaluations;
     let seen = march.equations().seen();
     let mut step = Within {
         monitor,
@@ -70,6 +86,11 @@ pub(crate) fn look_within<S: Real, M: Mechanism>(
         monitor.is_known_for(rate * (end - start), asked);
     }
     march.equations_mut().recall(seen);
+    let evaluations = march.counts().evaluations;
+    Looks {
+        evaluations,
+        looks: evaluations.saturating_sub(before),
+    }
 }
 
 /// How near a state is to a singular configuration, with its pivot where that is known.

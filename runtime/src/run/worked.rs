@@ -27,7 +27,8 @@ const TURNED_FAR: f64 = 0.3;
 const BY_HALVES: f64 = 1.0 / 15.0;
 
 /// The power (W) at the end of the last step, or at an event within it, where bodies stand so, and
-/// the work since the end of the one before where it is asked for. Before the end is corrected.
+/// the work since the end of the one before where it is asked for. Before the end is corrected. And
+/// how many evaluations that has taken.
 #[inline]
 pub(super) fn worked<S: Real, M: Mechanism>(
     monitor: &Monitor<S, M>,
@@ -35,7 +36,7 @@ pub(super) fn worked<S: Real, M: Mechanism>(
     At { time: end, bodies }: At<S, &M::State<S>>,
     is_event: bool,
     near: &M::State<S>,
-) -> Exchanged<S> {
+) -> (Exchanged<S>, usize) {
     let stagger = monitor.stagger(end);
     let at_end = |march: &dyn Marching<S, M>| {
         if is_event {
@@ -48,8 +49,9 @@ pub(super) fn worked<S: Real, M: Mechanism>(
     let asked = power.filter(|_| stagger.is_none());
     let asked = asked.and_then(|power| Some((power, monitor.asks_for_work(end, power)?)));
     let Some((last, (first, precision))) = asked else {
-        return (power, None);
+        return ((power, None), 0);
     };
+    let before = march.counts().evaluations;
     let equations = march.equations();
     let (seen, iterations) = (equations.seen(), equations.iterations());
     let mut step = Worked {
@@ -68,7 +70,8 @@ pub(super) fn worked<S: Real, M: Mechanism>(
     } else {
         power
     };
-    (power, work)
+    let looks = march.counts().evaluations.saturating_sub(before);
+    ((power, work), looks)
 }
 
 /// A step whose work is looked for.
