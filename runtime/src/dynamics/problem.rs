@@ -35,8 +35,11 @@ use crate::mechanism::kernels::Mechanism;
 /// # Ok::<(), SimulationError<StateOf<Rod>>>(())
 /// ```
 pub struct Problem<S, M: Mechanism, F, A = NoForces, C = <M as Mechanism>::Coordinates>(
-    PhantomData<fn() -> (S, M, F, A, C)>,
+    PhantomData<Parts<S, M, F, A, C>>,
 );
+
+/// It has none of them.
+type Parts<S, M, F, A, C> = fn() -> (S, M, F, A, C);
 
 impl<S, M: Mechanism, F, A, C> core::fmt::Debug for Problem<S, M, F, A, C> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

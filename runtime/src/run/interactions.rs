@@ -10,7 +10,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::described::Beside;
 use crate::nonsmooth::interaction::Interaction;
-use crate::run::simulation::Simulation;
+use crate::run::simulation::{Simulation, Solving};
 
 impl<'a, S, M, F, I, A, C, H> Simulation<'a, Problem<S, M, F, A, C>, I, H>
 where
@@ -66,7 +66,7 @@ where
     pub fn interactions<const K: usize, const ALL: usize>(
         self,
         interactions: [Interaction<S, M>; K],
-    ) -> Simulation<'a, Problem<S, M, F, Interacting<S, M, A, ALL>, C>, I, H>
+    ) -> Solving<'a, S, M, F, I, Interacting<S, M, A, ALL>, C, H>
     where
         M: Beside<K, ALL>,
     {
@@ -103,7 +103,7 @@ where
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn without_limits(self) -> Simulation<'a, Problem<S, M, F, Unlimited<A>, C>, I, H> {
+    pub fn without_limits(self) -> Solving<'a, S, M, F, I, Unlimited<A>, C, H> {
         self.exchange(Unlimited)
     }
 }

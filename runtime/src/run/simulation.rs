@@ -23,6 +23,10 @@ pub struct Simulation<'a, P: Posed, I, H = NothingHappens> {
     pub(super) happenings: H,
 }
 
+/// The same by the parts of its problem.
+pub(crate) type Solving<'a, S, M, F, I, A, C, H = NothingHappens> =
+    Simulation<'a, Problem<S, M, F, A, C>, I, H>;
+
 /// All that is said of a simulation, but for what happens in it.
 pub(super) struct Setup<'a, P: Posed, I> {
     pub(super) mechanism: Source<'a, P::Number, P::Mechanism>,
@@ -241,7 +245,7 @@ where
     pub(super) fn exchange<A2, C2>(
         self,
         forces: impl FnOnce(A) -> A2,
-    ) -> Simulation<'a, Problem<S, M, F, A2, C2>, I, H> {
+    ) -> Solving<'a, S, M, F, I, A2, C2, H> {
         let setup = self.setup;
         Simulation {
             setup: Setup {
@@ -272,10 +276,7 @@ where
     ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.
     #[must_use]
-    pub fn forces<G>(
-        self,
-        law: G,
-    ) -> Simulation<'a, Problem<S, M, F, A::With<ForceLaw<G>>, C>, I, H>
+    pub fn forces<G>(self, law: G) -> Solving<'a, S, M, F, I, A::With<ForceLaw<G>>, C, H>
     where
         A: AppliedForces<S, M>,
         G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
@@ -285,7 +286,7 @@ where
 
     /// Solves the equations of motion in other coordinates: `.coordinates::<Relative>()`.
     #[must_use]
-    pub fn coordinates<C2: Coordinates<M>>(self) -> Simulation<'a, Problem<S, M, F, A, C2>, I, H> {
+    pub fn coordinates<C2: Coordinates<M>>(self) -> Solving<'a, S, M, F, I, A, C2, H> {
         self.exchange(|forces| forces)
     }
 
@@ -300,7 +301,7 @@ where
     /// joints that close loops) and monitor are the same. The monitor looks at the joints that
     /// close loops alone.
     #[must_use]
-    pub fn joint_coordinates(self) -> Simulation<'a, Problem<S, M, F, A, Relative>, I, H>
+    pub fn joint_coordinates(self) -> Solving<'a, S, M, F, I, A, Relative, H>
     where
         M: JointCoordinates,
     {
@@ -310,16 +311,14 @@ where
     /// Solves the equations of motion in absolute coordinates: of every body position, Euler
     /// parameters and velocities.
     #[must_use]
-    pub fn absolute_coordinates(self) -> Simulation<'a, Problem<S, M, F, A, Absolute>, I, H> {
+    pub fn absolute_coordinates(self) -> Solving<'a, S, M, F, I, A, Absolute, H> {
         self.coordinates()
     }
 
     /// Absolute coordinates with other rates of Euler parameters.
     #[doc(hidden)]
     #[must_use]
-    pub fn orientation<P: Orientation>(
-        self,
-    ) -> Simulation<'a, Problem<S, M, F, A, Absolute<P>>, I, H> {
+    pub fn orientation<P: Orientation>(self) -> Solving<'a, S, M, F, I, A, Absolute<P>, H> {
         self.coordinates()
     }
 }

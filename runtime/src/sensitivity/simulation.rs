@@ -5,7 +5,6 @@ use core::ops::RangeInclusive;
 
 use super::Sensitivities;
 use super::start::check_derivatives;
-use crate::dynamics::Problem;
 use crate::error::{Fault, SimulationError, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::Forward;
@@ -21,7 +20,7 @@ use crate::run::output::{IntoFlow, Reporting};
 use crate::run::report::RunResult;
 use crate::run::runs::Runs;
 use crate::run::sample::Sample;
-use crate::run::simulation::Simulation;
+use crate::run::simulation::{Simulation, Solving};
 
 /// A state whose numbers carry derivatives.
 type State<M, const K: usize, S> = <M as Mechanism>::State<Forward<S, K>>;
@@ -40,7 +39,7 @@ pub struct SensitivitySimulation<
     C = <M as Mechanism>::Coordinates,
 > {
     along: Sensitivities<M, K, S>,
-    simulation: Simulation<'static, Problem<Forward<S, K>, M, F, Unlimited<A>, C>, I>,
+    simulation: Solving<'static, Forward<S, K>, M, F, I, Unlimited<A>, C>,
 }
 
 impl<M: Mechanism, F: Debug, I: Debug, const K: usize, S: Real, A, C> Debug

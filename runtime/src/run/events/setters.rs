@@ -36,8 +36,11 @@ impl From<Infallible> for Fault {
     }
 }
 
+/// A simulation in which something more happens.
+type With<'a, P, I, H, X> = Simulation<'a, P, I, (H, X)>;
+
 impl<'a, P: Posed, I, H> Simulation<'a, P, I, H> {
-    fn and<X>(self, happening: X) -> Simulation<'a, P, I, (H, X)> {
+    fn and<X>(self, happening: X) -> With<'a, P, I, H, X> {
         Simulation {
             setup: self.setup,
             happenings: (self.happenings, happening),
@@ -99,7 +102,7 @@ where
         crossing: Crossing,
         reading: G,
         handler: K,
-    ) -> Simulation<'a, P, I, (H, Handled<P::Number, G, K>)>
+    ) -> With<'a, P, I, H, Handled<P::Number, G, K>>
     where
         G: Fn(&Sample<'_, P::Number, P::Mechanism>) -> P::Number,
         K: FnMut(&mut Event<'_, P::Number, P::Mechanism>) -> R,
@@ -154,7 +157,7 @@ where
         self,
         period: P::Number,
         controller: K,
-    ) -> Simulation<'a, P, I, (H, Controlled<P::Number, K>)>
+    ) -> With<'a, P, I, H, Controlled<P::Number, K>>
     where
         K: FnMut(&Sample<'_, P::Number, P::Mechanism>, &mut InputsOf<P::Mechanism, P::Number>) -> R,
         R: Handling,
@@ -180,7 +183,7 @@ where
     /// of a run that is to be [`Simulation::verified`].
     #[cfg(feature = "std")]
     #[must_use]
-    pub fn checkpoints<K, R>(self, steps: usize, keep: K) -> Simulation<'a, P, I, (H, Keeping<K>)>
+    pub fn checkpoints<K, R>(self, steps: usize, keep: K) -> With<'a, P, I, H, Keeping<K>>
     where
         K: FnMut(&Checkpoint<P::Mechanism, P::Number>) -> R,
         R: Handling,
@@ -198,7 +201,7 @@ where
     pub fn trajectory(
         self,
         trajectory: &mut Trajectory<P::Mechanism, P::Number>,
-    ) -> Simulation<'a, P, I, (H, Recorded<'_, P::Mechanism, P::Number>)> {
+    ) -> With<'a, P, I, H, Recorded<'_, P::Mechanism, P::Number>> {
         self.and(Recorded(trajectory))
     }
 }
