@@ -256,13 +256,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     } = layout;
     let independence = &model.independence;
     let degrees_of_freedom = independence.degrees_of_freedom(velocities, rows);
-    let rank = match independence.rank {
-        Rank::Decided { rank, at_start } => {
-            quote!(#facade::__private::Rank::Decided { rank: #rank, at_start: #at_start })
-        }
-        Rank::NotDecided => quote!(#facade::__private::Rank::NotDecided),
-        Rank::NotAssembled => quote!(#facade::__private::Rank::NotAssembled),
-    };
+    let rank = rank(&independence.rank, facade);
     let dropped = independence.dropped;
     let redundant = independence.redundant.iter().map(|redundant| {
         let (joint, row) = (redundant.joint, redundant.row);
@@ -299,6 +293,16 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             kernels: &[#(#counts),*],
             plan: #plan,
         }
+    }
+}
+
+fn rank(rank: &Rank, facade: &TokenStream) -> TokenStream {
+    match rank {
+        Rank::Decided { rank, at_start } => {
+            quote!(#facade::__private::Rank::Decided { rank: #rank, at_start: #at_start })
+        }
+        Rank::NotDecided => quote!(#facade::__private::Rank::NotDecided),
+        Rank::NotAssembled => quote!(#facade::__private::Rank::NotAssembled),
     }
 }
 
