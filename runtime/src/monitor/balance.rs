@@ -224,9 +224,9 @@ impl<S: Real> Balance<S> {
         })
     }
 
-    /// The power (W) at the start of a step to a power, and to what precision (J) its work is to be
-    /// looked for within it; `None` where its ends tell. Points may be close that forces act
-    /// between.
+    /// The power (W) at the start of a step, and to what precision (J) its work is to be looked for
+    /// within it; `None` where the powers at its ends tell. `is_close` where points are close that
+    /// a force acts between.
     pub(super) fn asks(&self, time: S, power: S, is_close: bool) -> Option<(S, S)> {
         let ends = self.by_ends(time, power)?;
         let (_, first) = self.before?;

@@ -55,8 +55,8 @@ impl<S: Real, M: Mechanism> Monitor<S, M> {
         self.travel.time
     }
 
-    /// The power (W) of the forces at the start of a step to a power, and to what precision (J)
-    /// their work is to be looked for within it; `None` where the powers at ends of steps tell.
+    /// The power (W) of the forces at the start of the step that ends with a power, and to what
+    /// precision (J) their work is to be looked for; `None` where the powers at its ends tell.
     #[inline]
     pub(crate) fn asks_for_work(&self, end: S, power: S) -> Option<(S, S)> {
         self.energy.asks(end, power)

@@ -130,6 +130,7 @@ impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
         if !self.is_open {
             self.end_segment();
             self.driver.passing.has_refused(self.at.time);
+            return Ok(());
         }
         let budget = self.driver.settings.budget;
         let budget = budget.saturating_sub(self.driver.counts.evaluations);
@@ -186,9 +187,6 @@ impl<'c, S: Real, M: Mechanism> Companion<'c, S, M> {
         }
         let is_found = core::mem::take(&mut self.driver.hybrid.is_found);
         let is_turned = self.driver.turn(self.at.time, &self.at.bodies)?;
-        if is_turned {
-            self.driver.stand(self.at.time, &self.at.bodies, false)?;
-        }
         self.driver.act(is_found || is_turned, &mut self.at)?;
         Ok(())
     }

@@ -23,13 +23,9 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             return Ok(());
         }
         let is_turned = self.driver.turn(last_good.time, &last_good.bodies)?;
-        if is_turned {
-            self.driver
-                .stand(last_good.time, &last_good.bodies, false)?;
-            let unseen = self.driver.unseen;
-            if unseen > 0 && self.schedule.at(last_good.time, unseen) {
-                self.show(last_good.time, &last_good.bodies);
-            }
+        let unseen = self.driver.unseen;
+        if is_turned && unseen > 0 && self.schedule.at(last_good.time, unseen) {
+            self.show(last_good.time, &last_good.bodies);
         }
         let done = self.driver.act(is_found || is_turned, last_good)?;
         let is_unseen = done.stops && self.driver.unseen > 0;

@@ -1,5 +1,5 @@
-//! A run under way: segments of integration between breaks, corrections, reports, and the monitor
-//! over them.
+//! A run from its start to its end: segments of integration between breaks, what is done between
+//! two of them, and who is shown what.
 
 use crate::error::Fault;
 use crate::integrate::TimeSpan;

@@ -8,8 +8,8 @@ use crate::run::driver::{Driver, Taken};
 use crate::run::within::{Looks, look_within};
 
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
-    /// Takes a step, and looks into it for events and for the monitor. There are so
-    /// many seconds left. False of one that must be shorter.
+    /// Takes a step, and looks into it for events and for the monitor, with so many seconds left to
+    /// the end of the integration. False of one that must be shorter.
     #[inline(always)]
     pub(crate) fn take(
         &mut self,

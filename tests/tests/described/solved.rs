@@ -1,10 +1,27 @@
-//! The bodies' equations of mechanisms that run by their joints: what loops over rows make of them.
+//! The bodies' equations of mechanisms that run by their joints: without loops, and by loops over
+//! their rows where there are many.
 
 use holonom::mechanism::{Compliant, Plain, Stabilisation, Terms};
 use holonom::prelude::*;
 use holonom::state::Array;
 
 use crate::descriptions::{Crane, FourBar, Loose};
+
+/// Fourteen links on hinges that are inclined against each other, closed by a ball at the tip: too
+/// many for code without loops.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.3, -9.7, 1.1], coordinates = "joints")]
+struct Chain {
+    #[body(mass = 1.0 + 0.1 * k, inertia = [0.02, 0.03, 0.04], position = [0.2 * k, 0.1, 0.05 * k])]
+    links: [Body; 14],
+    #[joint(
+        between = [if k == 0 { ground } else { links[k - 1] }, links[k]],
+        point = [0.2 * k - 0.1, 0.0, 0.05 * k], axis = [1.0, 0.3 * k - 2.0, 0.5]
+    )]
+    hinges: [Revolute; 14],
+    #[joint(between = [links[13], ground], point = [2.7, 0.2, 0.7])]
+    tip: Spherical,
+}
 
 /// Puts solutions into the equations, and returns the smallest relative pivot.
 ///
@@ -75,4 +92,6 @@ fn solutions_satisfy_the_equations() {
     solved(&loose, &loose.described_state().expect("described"));
     let four_bar = FourBar::default();
     solved(&four_bar, &four_bar.described_state().expect("described"));
+    let chain = Chain::default();
+    solved(&chain, &chain.described_state().expect("described"));
 }

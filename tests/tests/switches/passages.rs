@@ -145,6 +145,15 @@ fn many_passages_are_right_or_told() {
         // What is of order 2 is not left to warnings.
         let [_, midpoint, heun, ..] = found;
         assert!(midpoint.0 < 5e-3 && heun.0 < 5e-3, "{beside:e}: {found:?}");
+        // Nor what has no control and order 4.
+        let of_order_4 = [
+            after_many::<_, Relative>(&mechanism, Rk4::every(0.1), end),
+            after_many::<_, Relative>(&mechanism, AdamsBashforthMoulton4::every(1e-2), end),
+        ];
+        assert!(
+            of_order_4.iter().all(|(error, _)| *error < 5e-3),
+            "{of_order_4:?}"
+        );
     }
 }
 

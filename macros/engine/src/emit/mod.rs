@@ -9,8 +9,8 @@
 //! `joint_solution.rs` say in which of its words they differ, and choose among evaluations.
 //!
 //! Long kernels: `docs/decisions/008-long-kernels.md`. Where bodies are read and not run, kernels
-//! that do the same for many joints are functions and tables (`repeated.rs`), and the equations of
-//! the bodies are solved by loops (`by_rows.rs`): `docs/decisions/037-what-is-not-run.md`.
+//! that do the same for many joints are functions and tables (`repeated.rs`). The equations of the
+//! bodies are solved by loops there (`by_rows.rs`): `docs/decisions/037-what-is-not-run.md`.
 //!
 //! Values. `parameters.rs` writes the checks of run-time values in `f64`. So `prepare`, which
 //! computes with them in any scalar, cannot fail; `update` runs both again. An input is a

@@ -1,8 +1,8 @@
 //! Kernels that do the same for many joints or bodies: a function for each thing that is done, and
 //! a table of what it is done with.
 //!
-//! Straight-line code of many bodies is as long as there are bodies, is compiled as such, and runs
-//! no faster where it is called once in a step: it does not stay in the instruction cache.
+//! Straight-line code grows with the number of bodies, and so does the time to compile it. Called
+//! once in a step it runs no faster, because it does not stay in the instruction cache.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};

@@ -8,7 +8,7 @@ use quote::quote;
 use super::store::{Kernel as Arguments, Store};
 use super::straight_line::{Environment, StraightLine, write};
 use super::writer::{Described, Writer, function};
-use crate::plan::kernels::{ByRows, Kernels, Solver};
+use crate::plan::kernels::{Kernels, Solver};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::Stage;
 use crate::symbolic::equations::Kernel;
@@ -93,7 +93,7 @@ impl Writer<'_> {
         let (rates, multipliers) = (local("rates"), local("multipliers"));
         let time = local("time");
         let kernels = self.kernels;
-        let evaluate = kernels.by_rows.as_ref().map(|ByRows { gains, .. }| {
+        let evaluate = kernels.gains.as_ref().map(|gains| {
             let StraightLine {
                 statements,
                 outputs,

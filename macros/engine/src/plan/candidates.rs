@@ -183,6 +183,18 @@ pub(super) fn cheapest(model: &Model) -> [Factorised; 2] {
     [Terms::Plain, Terms::Compliant].map(|terms| beginning.choose(terms))
 }
 
+/// Plans that cost little to find, for what runs seldom: bodies from the leaves of the tree, rows
+/// of a body's joint right behind it; with a compliance all bodies first, which takes a quarter to
+/// a half fewer operations than that.
+pub(super) fn first(model: &Model) -> [Factorised; 2] {
+    let beginning = Beginning::new(model);
+    [(Terms::Plain, RIGID[0]), (Terms::Compliant, COMPLIANT[4])].map(|(terms, strategy)| {
+        let plan = beginning.plan(strategy);
+        let factorised = beginning.factorised(plan, terms, usize::MAX);
+        factorised.expect("there is no bound")
+    })
+}
+
 /// A plan whose matrix is factorised, and nothing else worked out yet.
 #[derive(Clone, Debug)]
 pub(super) struct Factorised {

@@ -1,7 +1,7 @@
 //! The kernels of a mechanism, as outputs over arenas.
 
 use super::Plan;
-use super::candidates::{Factorised, Plans, cheapest, solved};
+use super::candidates::{Factorised, Plans, cheapest, first, solved};
 use super::eliminate::Check;
 use super::profile::{Profile, compliances};
 use super::readouts::Readouts;
@@ -95,13 +95,21 @@ pub struct Kernels {
     /// The fused evaluations for all terms. None where the mechanism is described by its joints
     /// alone.
     pub evaluations: Vec<Evaluation>,
-    /// Factorisation and back-substitution; likewise.
+    /// The gains of `Phi'` and of `Phi` in `gamma*`, for evaluations that are put together from
+    /// their parts.
+    pub gains: Option<Kernel>,
+    /// Factorisation and back-substitution.
     pub solvers: Vec<Solver>,
-    /// The plans of the solutions; likewise.
+    /// The plans of the solutions.
     pub plans: Option<Plans>,
-    /// What takes their place there.
+    /// What takes the place of both where many bodies run by their joints.
     pub by_rows: Option<ByRows>,
 }
+
+/// So many bodies at the most have their equations of motion unrolled where they run by their
+/// joints: a projection solves them at every step, and loops take three times as long for a
+/// four-bar. Of more bodies the code is what costs.
+pub const FEW: usize = 12;
 
 /// What loops over the rows need for the bodies' equations of motion, which a mechanism that runs
 /// by its joints solves seldom.
@@ -109,8 +117,6 @@ pub struct Kernels {
 pub struct ByRows {
     /// The entries that are kept.
     pub profile: Profile,
-    /// The gains of `Phi'` and of `Phi` in `gamma*`.
-    pub gains: Kernel,
     /// The compliance of each row.
     pub compliances: Kernel,
 }
@@ -120,11 +126,19 @@ impl Kernels {
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let scene = &Scene::new(model);
-        let (mut evaluations, mut solvers, mut plans, mut by_rows) = (vec![], vec![], None, None);
-        if model.coordinates.fuse_bodies() {
-            let factorised = cheapest(model);
-            evaluations = self::evaluations(model, &factorised);
-            let [rigid, compliant] = factorised;
+        let (mut solvers, mut plans) = (vec![], None);
+        let is_fused = model.coordinates.fuse_bodies();
+        let is_unrolled = is_fused || model.bodies.len() <= FEW;
+        let factorised = is_unrolled.then(|| {
+            if is_fused {
+                cheapest(model)
+            } else {
+                first(model)
+            }
+        });
+        let evaluations = factorised.as_ref().filter(|_| is_fused);
+        let evaluations = evaluations.map(|factorised| evaluations_of(model, factorised));
+        if let Some([rigid, compliant]) = factorised {
             plans = Some(Plans {
                 rigid: rigid.plan.clone(),
                 compliant: compliant.plan.clone(),
@@ -133,12 +147,6 @@ impl Kernels {
                 back_substitution(rigid, Terms::Plain),
                 back_substitution(compliant, Terms::Compliant),
             ];
-        } else {
-            by_rows = Some(ByRows {
-                profile: Profile::new(model),
-                gains: gains(),
-                compliances: compliances(scene),
-            });
         }
         let (jacobian, blocks) = jacobian(scene, model);
         let minus = -Arena::ONE;
@@ -175,16 +183,20 @@ impl Kernels {
                 vec![scene.space.arena.sum(powers)]
             }),
             readouts: Readouts::new(scene, model),
-            evaluations,
+            evaluations: evaluations.unwrap_or_default(),
+            gains: (!is_fused).then(gains),
             solvers,
             plans,
-            by_rows,
+            by_rows: (!is_unrolled).then(|| ByRows {
+                profile: Profile::new(model),
+                compliances: compliances(scene),
+            }),
         }
     }
 }
 
 /// The fused evaluations for all terms.
-fn evaluations(model: &Model, [rigid, compliant]: &[Factorised; 2]) -> Vec<Evaluation> {
+fn evaluations_of(model: &Model, [rigid, compliant]: &[Factorised; 2]) -> Vec<Evaluation> {
     let normalised = &Scene::normalised(model);
     let evaluations = Terms::ALL.map(|terms| {
         let factorised = match terms {

@@ -12,7 +12,6 @@
 
 mod capture;
 pub(crate) mod keeper;
-mod resume;
 #[cfg(feature = "serde")]
 mod written;
 

@@ -30,8 +30,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         self.hybrid.watches || always
     }
 
-    /// The time and the state of the first event within the last step, which began at a time where
-    /// the bodies stood near by; before the step is corrected or shown to the monitor.
+    /// The first event within the last step, which began at a time where the bodies stood near by.
+    /// The step is not corrected yet, nor shown to the monitor.
     #[inline(never)]
     pub(crate) fn event_within(
         &mut self,

@@ -31,7 +31,7 @@ const ROUNDS: usize = 8;
 
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Whether the integration begins anew because a law has switched. Turns the sides of those
-    /// whose zeros were found, in a state as it was corrected.
+    /// whose zeros were found, in a state as it was corrected, and takes those of the others.
     pub(crate) fn turn(&mut self, time: S, state: &M::State<S>) -> Result<bool, Fault> {
         let hybrid = &mut self.hybrid;
         let Some(switching) = &mut hybrid.switching else {
@@ -67,6 +67,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if is_found || is_due {
             hybrid.is_fresh = true;
             self.hold();
+            self.stand(time, state, false)?;
         }
         Ok(is_found || is_due)
     }
