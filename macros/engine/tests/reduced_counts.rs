@@ -8,7 +8,7 @@ mod common;
 mod library;
 
 use common::{chain, delivered, tokens};
-use holonom_engine::coordinates::candidates::Strategy;
+use holonom_engine::coordinates::candidates::{Method, Strategy, choose};
 use holonom_engine::coordinates::system::Reduced;
 use holonom_engine::model::Model;
 use holonom_engine::plan::system::Terms;
@@ -151,4 +151,52 @@ fn accelerations_in_joint_coordinates() {
         }
     }
     insta::assert_snapshot!("reduced", text);
+}
+
+/// A four-bar on a free body, of a base of 1 m, an upright rod, a coupler and a rocker.
+fn on_a_free_base([rod, coupler, rocker]: [f64; 3]) -> String {
+    let diagonal = 1.0_f64.hypot(rod);
+    let along = (coupler.powi(2) - rocker.powi(2) + diagonal.powi(2)) / (2.0 * diagonal);
+    let up = (coupler.powi(2) - along.powi(2)).sqrt();
+    let (c, s) = (1.0 / diagonal, rod / diagonal);
+    let (x, y) = (along * c + up * s, rod - along * s + up * c);
+    let mut text = String::from(
+        "#[mechanism(gravity = [0.0, -9.81, 0.0], coordinates = \"joints\", redundant = \"drop\")] struct OnABase {
+            #[body(free, mass = 0.5, inertia = [0.2, 0.3, 0.4], position = [0.3, 0.2, 0.1])] base: Body,",
+    );
+    for (name, x, y) in [
+        ("rod", 0.0, 0.5 * rod),
+        ("coupler", 0.5 * x, 0.5 * (rod + y)),
+        ("rocker", 0.5 * (1.0 + x), 0.5 * y),
+    ] {
+        text += &format!(
+            "#[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [{x:?}, {y:?}, 0.0])] {name}: Body,"
+        );
+    }
+    for (name, bodies, x, y) in [
+        ("a", "base, rod", 0.0, 0.0),
+        ("b", "rod, coupler", 0.0, rod),
+        ("c", "coupler, rocker", x, y),
+        ("d", "rocker, base", 1.0, 0.0),
+    ] {
+        text += &format!(
+            "#[joint(between = [{bodies}], point = [{x:?}, {y:?}, 0.0], axis = [0.0, 0.0, 1.0])] {name}: Revolute,"
+        );
+    }
+    text + "}"
+}
+
+/// Of three rods that can only rock, no two angles follow from the third everywhere. The base can
+/// move in six more ways, and a sweep hardly turns the loop.
+#[test]
+fn velocities_follow_from_others_wherever_motion_leads() {
+    for (lengths, method) in [
+        ([0.8, 0.7, 0.75], Method::MassMatrix),
+        ([0.3, 0.9, 0.7], Method::Dependent),
+    ] {
+        let model = delivered(&tokens(&on_a_free_base(lengths)), |name| {
+            library::definition(name).map(|(kind, text)| (kind, tokens(&text)))
+        });
+        assert_eq!(choose(&model).0.method, method, "{lengths:?}");
+    }
 }

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 
 use super::spanning::Spanning;
 use crate::model::Model;
-use crate::rank::closing;
+use crate::rank::closing::{self, Free, Place};
 
 /// What is common to all strategies.
 pub struct Beginning<'a> {
@@ -14,7 +14,8 @@ pub struct Beginning<'a> {
     /// Its tree.
     pub(super) spanning: Spanning,
     following: OnceCell<Vec<(usize, usize)>>,
-    stops: OnceCell<Vec<(f64, Vec<f64>)>>,
+    stops: OnceCell<Vec<Place>>,
+    free: OnceCell<Option<Free>>,
 }
 
 impl<'a> Beginning<'a> {
@@ -26,6 +27,7 @@ impl<'a> Beginning<'a> {
             spanning: Spanning::new(model),
             following: OnceCell::new(),
             stops: OnceCell::new(),
+            free: OnceCell::new(),
         }
     }
 
@@ -38,8 +40,13 @@ impl<'a> Beginning<'a> {
     }
 
     /// Times and coordinates of the bodies along a sweep; none where nothing can move or be told.
-    pub(super) fn stops(&self) -> &[(f64, Vec<f64>)] {
+    pub(super) fn stops(&self) -> &[Place] {
         self.stops.get_or_init(|| closing::stops(&self.whole()))
+    }
+
+    /// What the constraints leave free; none where nothing can be told.
+    pub(super) fn free(&self) -> Option<&Free> {
+        self.free.get_or_init(|| Free::of(&self.whole())).as_ref()
     }
 
     /// The mechanism with all its equations.

@@ -1,6 +1,7 @@
 //! Ways to the equations of motion worth counting, and the choice among them.
 
 use super::beginning::Beginning;
+use super::dependent::Led;
 use super::links::Runs;
 use super::system::Reduced;
 use crate::model::Model;
@@ -66,15 +67,26 @@ impl Strategy {
 #[must_use]
 pub fn choose(model: &Model) -> (Strategy, Reduced) {
     let beginning = Beginning::new(model);
-    let mut best: Option<(usize, Strategy, Reduced)> = None;
-    for strategy in Strategy::beginning_with(&beginning) {
-        let reduced = Reduced::from_beginning(&beginning, strategy);
-        let cost = cost(reduced.clone());
-        if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-            best = Some((cost, strategy, reduced));
+    let of = |strategy, led| {
+        let reduced = Reduced::from_beginning(&beginning, strategy, led);
+        (cost(reduced.clone()), strategy, led, reduced)
+    };
+    let strategies = Strategy::beginning_with(&beginning).into_iter();
+    let mut all: Vec<(usize, Strategy, Led, Reduced)> = strategies
+        .map(|strategy| of(strategy, Led::Along))
+        .collect();
+    // What a choice is led to takes longer than all else: that is done for what would be taken.
+    let (strategy, mut reduced) = loop {
+        let best = all
+            .iter_mut()
+            .min_by_key(|(cost, ..)| *cost)
+            .expect("there is a way");
+        let (_, strategy, led, reduced) = &*best;
+        if *led == Led::WhereItVanishes || reduced.together_count() == 0 {
+            break (*strategy, reduced.clone());
         }
-    }
-    let (_, strategy, mut reduced) = best.expect("there is a way");
+        *best = of(*strategy, Led::WhereItVanishes);
+    };
     // Determinants are compared with their own values at the start.
     if !reduced.determines() {
         reduced.find_references(&beginning);

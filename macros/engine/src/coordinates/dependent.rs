@@ -4,16 +4,19 @@
 //! A row that determines a velocity leaves no multiplier to solve for. But the velocity must follow
 //! from the others wherever the rows are independent, not here and there: so the mechanism is led
 //! on a sweep, and where some velocities come near to being undetermined by rows that determine
-//! others, the rows stay behind. Where there is no sweep, what rows determine by numbers alone is
-//! certain ([`certain`]).
+//! others, the rows stay behind. What is chosen so is then led downhill ([`Descent`]), because a
+//! sweep is one way only. Where there is no sweep, what rows determine by numbers alone is certain
+//! ([`certain`]).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::beginning::Beginning;
 use super::certain;
+use super::descent::Descent;
 use super::from_bodies::from_bodies;
 use super::links::Links;
 use crate::plan::Pivot;
+use crate::rank::closing::Place;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::evaluate::evaluate;
 
@@ -35,10 +38,13 @@ struct Stop {
     /// The largest number that each row is made of. In a singular position a row without the
     /// velocities that others determine may be nothing but round-off.
     made_of: Vec<f64>,
+    /// Where it is, and the number of the way that it is on.
+    at: Place,
+    way: usize,
 }
 
 impl Stop {
-    fn new(mut rows: Vec<Vec<f64>>, factors: Vec<f64>) -> Self {
+    fn new(mut rows: Vec<Vec<f64>>, factors: Vec<f64>, at: Place, way: usize) -> Self {
         for (row, factor) in rows.iter_mut().zip(&factors) {
             row.iter_mut().for_each(|entry| *entry *= factor);
         }
@@ -47,6 +53,8 @@ impl Stop {
             rows,
             factors,
             made_of,
+            at,
+            way,
         }
     }
 }
@@ -54,11 +62,7 @@ impl Stop {
 /// The inputs of some stops of a sweep, the first of which is the reference configuration; none
 /// where nothing can move or be told.
 #[must_use]
-pub(super) fn sweep(
-    arena: &Arena,
-    beginning: &Beginning<'_>,
-    links: &Links,
-) -> Vec<(f64, Vec<f64>)> {
+pub(super) fn sweep(arena: &Arena, beginning: &Beginning<'_>, links: &Links) -> Vec<Place> {
     let mut arena = arena.clone();
     let outputs = from_bodies(&mut arena, beginning.model, links);
     let count = outputs.len() - links.velocities;
@@ -75,58 +79,98 @@ pub(super) fn sweep(
     stops.collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
-/// The values of rows at the stops of a sweep, each about as large as at the median one.
-fn values(
-    arena: &Arena,
-    (rows, mobilities): (&[Vec<Expr>], &[Expr]),
-    sweep: &[(f64, Vec<f64>)],
-) -> Option<Vec<Stop>> {
-    let flat: Vec<Expr> = rows.iter().flatten().copied().collect();
-    let width = rows.first().map_or(1, |row| row.len().max(1));
-    let stops = sweep.iter().map(|(time, coordinates)| {
+/// Rows, what they are on free bodies, and the median of that along a sweep.
+struct Numbers<'a> {
+    arena: &'a Arena,
+    rows: Vec<Expr>,
+    width: usize,
+    mobilities: &'a [Expr],
+    medians: Vec<Option<f64>>,
+}
+
+impl<'a> Numbers<'a> {
+    fn new(arena: &'a Arena, rows: &[Vec<Expr>], mobilities: &'a [Expr]) -> Self {
+        Self {
+            arena,
+            rows: rows.iter().flatten().copied().collect(),
+            width: rows.first().map_or(1, |row| row.len().max(1)),
+            mobilities,
+            medians: Vec::new(),
+        }
+    }
+
+    /// The rows and what they are on free bodies, at joint coordinates.
+    fn at(&self, (time, coordinates): &Place) -> Option<(Vec<Vec<f64>>, Vec<Option<f64>>)> {
         let known = |input| match input {
             Input::Coordinate(place) => coordinates.get(place as usize).copied(),
             Input::Time => Some(*time),
             _ => None,
         };
-        let values: Option<Vec<f64>> = evaluate(arena, &flat, known).into_iter().collect();
+        let values: Option<Vec<f64>> = evaluate(self.arena, &self.rows, known)
+            .into_iter()
+            .collect();
         // Any masses will do.
-        let free = evaluate(arena, mobilities, |input| match input {
+        let free = evaluate(self.arena, self.mobilities, |input| match input {
             Input::Symbol(_) | Input::Varying(_) => Some(1.0),
             input => known(input),
         });
-        values.map(|values| (values, free))
-    });
-    let stops: Vec<(Vec<f64>, Vec<Option<f64>>)> = stops.collect::<Option<_>>()?;
-    let free = (0..rows.len()).map(|row| stops.iter().map(|(_, free)| free[row]).collect());
-    let factors: Vec<Vec<f64>> = free.map(|free: Vec<_>| factors(&free)).collect();
-    let stops = stops.into_iter().enumerate().map(|(stop, (values, _))| {
-        let rows = values.chunks(width).map(<[f64]>::to_vec).collect();
-        Stop::new(rows, factors.iter().map(|factors| factors[stop]).collect())
-    });
-    Some(stops.collect())
+        let rows = values?.chunks(self.width).map(<[f64]>::to_vec).collect();
+        Some((rows, free))
+    }
+
+    /// The stops of a sweep, each row about as large as at the median one. Places are those of the
+    /// bodies.
+    fn along(&mut self, sweep: &[Place], places: &[Place]) -> Option<Vec<Stop>> {
+        let values: Option<Vec<_>> = sweep.iter().map(|at| self.at(at)).collect();
+        let values = values?;
+        let of_row = |row: usize| values.iter().map(move |(_, free)| free[row]);
+        self.medians = (0..self.mobilities.len())
+            .map(|row| median(of_row(row)))
+            .collect();
+        let stops = values.into_iter().zip(places);
+        let stops = stops.map(|((rows, free), place)| self.stop(rows, &free, place, 0));
+        Some(stops.collect())
+    }
+
+    fn stop(&self, rows: Vec<Vec<f64>>, free: &[Option<f64>], at: &Place, way: usize) -> Stop {
+        let factors = free.iter().zip(&self.medians);
+        let factors = factors.map(|(&mobility, &median)| factor(mobility, median));
+        Stop::new(rows, factors.collect(), at.clone(), way)
+    }
 }
 
-/// Factors by which a row is about as large on free bodies at every stop as at the median one, from
-/// its mobilities. An equation means the same if it is multiplied by a number. But where an angle
+fn known_size(mobility: Option<f64>) -> Option<f64> {
+    mobility.filter(|m| m.is_finite() && *m > 0.0)
+}
+
+fn median(mobilities: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    let mut sizes: Vec<f64> = mobilities.filter_map(known_size).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes.get(sizes.len() / 2).copied()
+}
+
+/// The factor by which a row is about as large on free bodies as at the median stop, from its
+/// mobilities. An equation means the same if it is multiplied by a number. But where an angle
 /// is hardly defined, its row grows without bound, and other stops would look singular beside that
 /// one. A row that nearly vanishes by itself is singular and keeps its size. Powers of two change
 /// no digit.
-fn factors(mobilities: &[Option<f64>]) -> Vec<f64> {
-    let known = |mobility: &Option<f64>| mobility.filter(|m| m.is_finite() && *m > 0.0);
-    let mut sizes: Vec<f64> = mobilities.iter().filter_map(known).collect();
-    sizes.sort_by(f64::total_cmp);
-    let Some(&median) = sizes.get(sizes.len() / 2) else {
-        return vec![1.0; mobilities.len()];
-    };
-    let factor = |mobility: &Option<f64>| match known(mobility) {
-        Some(mobility) if mobility > SINGULAR.powi(2) * median => {
+fn factor(mobility: Option<f64>, median: Option<f64>) -> f64 {
+    match (known_size(mobility), median) {
+        (Some(mobility), Some(median)) if mobility > SINGULAR.powi(2) * median => {
             let doublings = (median / mobility).sqrt().log2().round();
             2.0_f64.powi(doublings as i32)
         }
         _ => 1.0,
-    };
-    mobilities.iter().map(factor).collect()
+    }
+}
+
+/// Where the mechanism is led to judge a choice.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Led {
+    /// On the sweep.
+    Along,
+    /// Besides to where it vanishes, if that can be reached.
+    WhereItVanishes,
 }
 
 /// A way to take rows and velocities together.
@@ -154,6 +198,10 @@ struct Open<'a> {
     known: Vec<Vec<usize>>,
     /// What was found of rows that are taken together, as long as it holds.
     candidates: BTreeMap<Vec<usize>, Vec<Candidate>>,
+    /// What was taken, in order.
+    taken: Vec<Candidate>,
+    /// Rows and velocities that vanish somewhere.
+    vanishing: Vec<[Vec<usize>; 2]>,
 }
 
 /// What is eliminated before the rest: velocities with the rows that determine them, and the
@@ -162,16 +210,29 @@ struct Open<'a> {
 pub(super) fn dependent(
     arena: &Arena,
     (rows, mobilities, joints): (&[Vec<Expr>], &[Expr], &[usize]),
-    alike: &[usize],
-    sweep: &[(f64, Vec<f64>)],
+    links: &Links,
+    (beginning, led): (&Beginning<'_>, Led),
 ) -> (Vec<Pivot>, Vec<f64>) {
-    let (mut pivots, mut determinants) = (Vec::new(), Vec::new());
-    let told = values(arena, (rows, mobilities), sweep).filter(|stops| stops.len() >= STOPS);
-    let Some(stops) = told else {
-        return certain::certain(arena, rows, alike);
+    let alike = links.alike();
+    let sweep = sweep(arena, beginning, links);
+    let mut numbers = Numbers::new(arena, rows, mobilities);
+    let told = numbers.along(&sweep, beginning.stops());
+    let Some(stops) = told.filter(|stops| stops.len() >= STOPS) else {
+        return certain::certain(arena, rows, &alike);
     };
-    let mut open = Open::new(stops, joints, alike);
+    let (mut pivots, mut determinants) = (Vec::new(), Vec::new());
+    let descent =
+        (led == Led::WhereItVanishes).then(|| Descent::new(arena, beginning, links, rows));
+    let descent = descent.flatten();
+    let mut open = Open::new(stops, joints, &alike);
     while let Some(chosen) = open.best() {
+        let way = descent
+            .as_ref()
+            .and_then(|descent| open.vanishing(&chosen, descent));
+        if let (Some(way), Some(descent)) = (way, &descent) {
+            open.refuse(&chosen, &way, (&numbers, descent));
+            continue;
+        }
         let first = rows[0].len();
         pivots.push(match (&chosen.velocities[..], &chosen.rows[..]) {
             (&[k, l], &[m, n]) => Pivot::Forbidden([k, l], [first + m, first + n]),
@@ -179,7 +240,7 @@ pub(super) fn dependent(
             _ => unreachable!("a candidate has rows and velocities"),
         });
         determinants.push(chosen.recorded);
-        open.eliminate(&chosen);
+        open.eliminate(chosen);
     }
     (pivots, determinants)
 }
@@ -195,7 +256,105 @@ impl<'a> Open<'a> {
             stops,
             known,
             candidates: BTreeMap::new(),
+            taken: Vec::new(),
+            vanishing: Vec::new(),
         }
+    }
+
+    /// Where what determines the velocities of a candidate vanishes.
+    fn vanishing(&self, chosen: &Candidate, descent: &Descent<'_>) -> Option<[Place; 2]> {
+        let known = self.known_of(&chosen.rows);
+        let share = |stop: &Stop| {
+            let volume = self.volume(stop, &chosen.rows, &known);
+            let determinant = determinant(stop, &chosen.rows, &chosen.velocities);
+            determinant / self.scale(&chosen.velocities) / volume
+        };
+        let regular = self.regular(&chosen.rows);
+        let steepness = |&&(stop, _): &&(&Stop, f64)| share(stop).abs();
+        let least = regular
+            .iter()
+            .min_by(|a, b| steepness(a).total_cmp(&steepness(b)));
+        let mut from = least
+            .into_iter()
+            .chain(regular.first())
+            .map(|&(stop, volume)| (&stop.at, SINGULAR * volume));
+        from.find_map(|(at, least)| {
+            descent.vanishing(at, |rows| {
+                let factors = vec![1.0; rows.len()];
+                let mut stop = Stop::new(rows, factors, at.clone(), 0);
+                self.reduced(&mut stop, &chosen.rows)?;
+                let volume = self.volume(&stop, &chosen.rows, &known);
+                (volume > least).then(|| share(&stop))
+            })
+        })
+    }
+
+    /// What was taken put into the other rows and some of those that are left; none in a singular
+    /// position.
+    fn reduced(&self, stop: &mut Stop, rows: &[usize]) -> Option<()> {
+        for (place, taken) in self.taken.iter().enumerate() {
+            let least = SINGULAR * taken.determinant.abs();
+            if determinant(stop, &taken.rows, &taken.velocities).abs() <= least {
+                return None;
+            }
+            let later = self.taken[place + 1..].iter().flat_map(|later| &later.rows);
+            for &row in later.chain(rows) {
+                if taken.velocities.iter().any(|&k| stop.rows[row][k] != 0.0) {
+                    reduce(stop, row, taken);
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// Takes a candidate for one that vanishes, and looks at the others where it does.
+    fn refuse(
+        &mut self,
+        chosen: &Candidate,
+        way: &[Place],
+        (numbers, descent): (&Numbers<'_>, &Descent<'_>),
+    ) {
+        let is_of_way = self.stops.last().map_or(0, |stop| stop.way + 1);
+        for at in way {
+            let values = descent.joints(at).and_then(|joints| numbers.at(&joints));
+            let stop = values.map(|(rows, free)| numbers.stop(rows, &free, at, is_of_way));
+            self.stops.extend(stop.and_then(|mut stop| {
+                self.reduced(&mut stop, &self.rows)?;
+                Some(stop)
+            }));
+        }
+        for &row in &self.rows {
+            self.known[row] = known(&self.stops, row);
+        }
+        self.vanishing
+            .push([chosen.rows.clone(), chosen.velocities.clone()]);
+        self.candidates.clear();
+    }
+
+    /// The velocities that some rows know of.
+    fn known_of(&self, rows: &[usize]) -> Vec<usize> {
+        let known = rows.iter().flat_map(|&row| &self.known[row]).copied();
+        let known: BTreeSet<usize> = known.collect();
+        known.into_iter().collect()
+    }
+
+    /// The stops where some rows are regular, with the volumes that they span.
+    fn regular(&self, rows: &[usize]) -> Vec<(&Stop, f64)> {
+        let known = self.known_of(rows);
+        let volumes = self
+            .stops
+            .iter()
+            .map(|stop| (stop, self.volume(stop, rows, &known)));
+        let volumes: Vec<(&Stop, f64)> = volumes.collect();
+        let least = volumes
+            .iter()
+            .fold(0.0_f64, |most, (_, volume)| most.max(*volume));
+        let is_regular = |(_, volume): &(&Stop, f64)| *volume > SINGULAR * least;
+        volumes.into_iter().filter(is_regular).collect()
+    }
+
+    fn scale(&self, velocities: &[usize]) -> f64 {
+        velocities.iter().map(|&k| self.sizes[k]).product()
     }
 
     /// Rows that are taken together: two of one joint meet in a determinant that vanishes less
@@ -246,26 +405,16 @@ impl<'a> Open<'a> {
 
     /// All steady ways to take some rows.
     fn candidates_of(&self, rows: &[usize]) -> Vec<Candidate> {
-        let mut known: Vec<usize> = rows
-            .iter()
-            .flat_map(|&row| &self.known[row])
-            .copied()
-            .collect();
-        known.sort_unstable();
-        known.dedup();
-        let volumes: Vec<f64> = self
-            .stops
-            .iter()
-            .map(|stop| self.volume(stop, rows, &known))
-            .collect();
+        let known = self.known_of(rows);
+        let regular = self.regular(rows);
         let mut found = Vec::new();
         for (number, &k) in known.iter().enumerate() {
             match rows {
-                [_] => found.extend(self.candidate(rows, vec![k], &volumes)),
+                [_] => found.extend(self.candidate(rows, vec![k], &regular)),
                 _ => found.extend(
                     known[number + 1..]
                         .iter()
-                        .filter_map(|&l| self.candidate(rows, vec![k, l], &volumes)),
+                        .filter_map(|&l| self.candidate(rows, vec![k, l], &regular)),
                 ),
             }
         }
@@ -276,26 +425,32 @@ impl<'a> Open<'a> {
         &self,
         rows: &[usize],
         velocities: Vec<usize>,
-        volumes: &[f64],
+        regular: &[(&Stop, f64)],
     ) -> Option<Candidate> {
+        if self
+            .vanishing
+            .iter()
+            .any(|[r, v]| r == rows && *v == velocities)
+        {
+            return None;
+        }
         let stops = self.stops.iter();
         let determinants: Vec<f64> = stops
             .map(|stop| determinant(stop, rows, &velocities))
             .collect();
-        let scale: f64 = velocities.iter().map(|&k| self.sizes[k]).product();
-        let least = SINGULAR * largest(volumes);
-        let regular = determinants.iter().zip(volumes);
-        let shares: Vec<f64> = regular
-            .filter(|(_, volume)| **volume > least)
-            .map(|(determinant, volume)| determinant / scale / volume)
-            .collect();
-        let mut steps = shares.windows(2);
-        if steps.any(|pair| passes_zero(pair[0], pair[1])) {
+        let scale = self.scale(&velocities);
+        let shares = regular.iter().map(|(stop, volume)| {
+            let share = determinant(stop, rows, &velocities) / scale / volume;
+            (stop.way, share)
+        });
+        let shares: Vec<(usize, f64)> = shares.collect();
+        let mut steps = shares.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        if steps.any(|pair| passes_zero(pair[0].1, pair[1].1)) {
             return None;
         }
         let steady = shares
             .iter()
-            .fold(f64::INFINITY, |least, share| least.min(share.abs()));
+            .fold(f64::INFINITY, |least, (_, share)| least.min(share.abs()));
         let most = largest(&determinants);
         let is_first = determinants[0].abs() > STEADY * most.abs();
         let determinant = if is_first { determinants[0] } else { most };
@@ -329,7 +484,7 @@ impl<'a> Open<'a> {
     }
 
     /// Puts what the chosen velocities follow from into the rows that are left.
-    fn eliminate(&mut self, chosen: &Candidate) {
+    fn eliminate(&mut self, chosen: Candidate) {
         self.rows.retain(|row| !chosen.rows.contains(row));
         let least = SINGULAR * chosen.determinant.abs();
         let before = self.stops.len();
@@ -341,7 +496,7 @@ impl<'a> Open<'a> {
             if self.stops.iter().any(knows) {
                 self.stops
                     .iter_mut()
-                    .for_each(|stop| reduce(stop, row, chosen));
+                    .for_each(|stop| reduce(stop, row, &chosen));
                 changed.push(row);
             }
         }
@@ -353,6 +508,7 @@ impl<'a> Open<'a> {
         }
         self.candidates
             .retain(|rows, _| !rows.iter().any(|row| changed.contains(row)));
+        self.taken.push(chosen);
     }
 }
 
@@ -382,7 +538,7 @@ fn largest(values: &[f64]) -> f64 {
 
 /// Whether a share vanishes between two stops. In a singular position all shares change their signs
 /// at once, and keep their sizes.
-fn passes_zero(before: f64, behind: f64) -> bool {
+pub(super) fn passes_zero(before: f64, behind: f64) -> bool {
     before * behind < 0.0 && before.abs() + behind.abs() < 1.0
 }
 
@@ -457,11 +613,13 @@ fn reduce(stop: &mut Stop, row: usize, chosen: &Candidate) {
 
 #[cfg(test)]
 mod tests {
-    use super::factors;
+    use super::{factor, median};
 
     #[test]
     fn rows_are_about_as_large_at_all_stops() {
-        let factors = factors(&[Some(1.0), Some(4.0), Some(1e8), Some(1e-30), None]);
+        let mobilities = [Some(1.0), Some(4.0), Some(1e8), Some(1e-30), None];
+        let median = median(mobilities.into_iter());
+        let factors = mobilities.map(|mobility| factor(mobility, median));
         assert_eq!(factors, [2.0, 1.0, 2.0_f64.powi(-12), 1.0, 1.0]);
     }
 }

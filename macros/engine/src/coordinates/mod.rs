@@ -31,7 +31,8 @@
 //! Choice (`candidates.rs`) by operations and path: `L D L^T` from the leaves; articulated
 //! inertias, whose cost is proportional to the length of a chain; rows that determine velocities,
 //! in closed loops (`dependent.rs`). The last are used only where their determinant stands out all
-//! along a sweep. With a compliance rows stay behind. Pivots of other rows compare with free bodies
+//! along a sweep, and where motion that changes it most does not make it vanish (`descent.rs`).
+//! With a compliance rows stay behind. Pivots of other rows compare with free bodies
 //! (`reference.rs`), since their value on links vanishes where these are in line.
 //!
 //! Loops. `handover.rs` counts a mass on either side of a closing point, with `D = P - Q`:
@@ -58,6 +59,7 @@ pub mod candidates;
 mod carried;
 mod certain;
 mod dependent;
+mod descent;
 pub mod frames;
 pub mod freedom;
 pub mod from_bodies;

@@ -3,7 +3,7 @@
 use super::algebra::{add, apply};
 use super::beginning::Beginning;
 use super::candidates::{Method, Strategy};
-use super::dependent::{dependent, sweep};
+use super::dependent::{Led, dependent};
 use super::frames::Frames;
 use super::handover::Handover;
 use super::kinematics::Kinematics;
@@ -59,11 +59,11 @@ impl Reduced {
     /// A mechanism in the coordinates of its joints.
     #[must_use]
     pub fn of(model: &Model, strategy: Strategy) -> Self {
-        Self::from_beginning(&Beginning::new(model), strategy)
+        Self::from_beginning(&Beginning::new(model), strategy, Led::WhereItVanishes)
     }
 
     /// The same of a mechanism of which something is known already.
-    pub(super) fn from_beginning(beginning: &Beginning<'_>, strategy: Strategy) -> Self {
+    pub(super) fn from_beginning(beginning: &Beginning<'_>, strategy: Strategy, led: Led) -> Self {
         let Beginning {
             model, spanning, ..
         } = beginning;
@@ -96,7 +96,7 @@ impl Reduced {
             reduced = Self::new(arena, &remaining, links, strategy);
         }
         if strategy.method == Method::Dependent && !reduced.scene.constraints.is_empty() {
-            reduced.together = reduced.clone().taken_together(beginning);
+            reduced.together = reduced.clone().taken_together((beginning, led));
         }
         if !reduced.together.0.is_empty() {
             let mut handovers = reduced.handovers(model);
@@ -112,17 +112,15 @@ impl Reduced {
     }
 
     /// The velocities that rows determine, with these, and their determinants.
-    fn taken_together(mut self, beginning: &Beginning<'_>) -> (Vec<Pivot>, Vec<f64>) {
-        let sweep = sweep(&self.scene.space.arena, beginning, &self.links);
+    fn taken_together(mut self, beginning: (&Beginning<'_>, Led)) -> (Vec<Pivot>, Vec<f64>) {
         let (rows, _) = self.rows(Terms::Plain);
         let mobilities = self.mobilities();
         let constraints = self.scene.constraints.iter();
         let joints: Vec<usize> = constraints
             .flat_map(|c| std::iter::repeat_n(c.joint, c.equations()))
             .collect();
-        let alike = self.links.alike();
         let rows = (&rows[..], &mobilities[..], &joints[..]);
-        dependent(&self.scene.space.arena, rows, &alike, &sweep)
+        dependent(&self.scene.space.arena, rows, &self.links, beginning)
     }
 
     /// The equations, by joint and place, that no velocity changes.
@@ -174,6 +172,11 @@ impl Reduced {
             together: (Vec::new(), Vec::new()),
             references: Vec::new(),
         }
+    }
+
+    /// How many times velocities are eliminated with the rows that determine them.
+    pub(super) fn together_count(&self) -> usize {
+        self.together.0.len()
     }
 
     /// How many masses are counted on another link, where all rows that remain determine

@@ -1,8 +1,9 @@
 //! Which equations close loops: those of other joints are not in question, because coordinates
 //! satisfy them by themselves.
 
+use super::dense::{Direction, norm};
 use super::limits::TOLERANCE;
-use super::motion::Constraints;
+use super::motion::{Configuration, Constraints};
 use super::random::Random;
 use super::span::{Span, independent};
 use super::sparse::{Row, Rows};
@@ -65,7 +66,7 @@ pub(crate) fn following(model: &Model, closing: &[usize]) -> Option<Vec<(usize, 
 /// Times and coordinates of the bodies along a motion that the constraints leave free, from the
 /// reference configuration on; none where nothing can be told. Typical values of parameters do not
 /// tell where a mechanism with other values gets to.
-pub(crate) fn stops(model: &Model) -> Vec<(f64, Vec<f64>)> {
+pub(crate) fn stops(model: &Model) -> Vec<Place> {
     if !model.independence.likes.is_empty() {
         return Vec::new();
     }
@@ -83,6 +84,65 @@ pub(crate) fn stops(model: &Model) -> Vec<(f64, Vec<f64>)> {
     let heading = random.motion(model.layout().velocities);
     let stops = sweep::stops(&constraints, &start, heading, None).into_iter();
     stops.map(|(at, _)| (at.time, at.coordinates)).collect()
+}
+
+/// Time and coordinates of the bodies.
+pub(crate) type Place = (f64, Vec<f64>);
+
+/// What the constraints leave free at a time.
+pub(crate) struct Free(Constraints);
+
+impl Free {
+    /// That of a model without dropped equations; `None` where nothing can be told.
+    pub(crate) fn of(model: &Model) -> Option<Self> {
+        let mut random = Random::new();
+        let constraints = Constraints::new(model, |velocities| random.motion(velocities));
+        constraints.map(|(constraints, _)| Self(constraints))
+    }
+
+    /// Motions of unit length and at right angles that span what is free.
+    pub(crate) fn motions(&self, at: &Place) -> Vec<Vec<f64>> {
+        let mut found: Vec<Direction> = Vec::new();
+        let rows = self.0.directions(&configuration(at), TOLERANCE);
+        let span = rows.as_ref().map(|rows| Span::of(rows, TOLERANCE));
+        let mut random = Random::new();
+        while let Some(span) = &span {
+            let mut motion = random.motion(self.0.velocities());
+            let least = TOLERANCE * norm(&motion);
+            span.remove_from(&mut motion);
+            for direction in found.iter().chain(&found) {
+                direction.remove_from(&mut motion);
+            }
+            let left = norm(&motion);
+            if left <= least {
+                break;
+            }
+            found.push(Direction::of(&motion, left));
+        }
+        found
+            .into_iter()
+            .map(|direction| direction.values)
+            .collect()
+    }
+
+    /// Another place after a motion, straight on.
+    pub(crate) fn moved(&self, at: &Place, motion: &[f64]) -> Place {
+        let moved = self.0.moved(&configuration(at), motion);
+        (moved.time, moved.coordinates)
+    }
+
+    /// The place on the constraints that a motion leads to, if it does.
+    pub(crate) fn reached(&self, at: &Place, motion: &[f64]) -> Option<Place> {
+        let reached = self.0.assembled(&self.0.moved(&configuration(at), motion));
+        reached.map(|reached| (reached.time, reached.coordinates))
+    }
+}
+
+fn configuration((time, coordinates): &Place) -> Configuration {
+    Configuration {
+        coordinates: coordinates.clone(),
+        time: *time,
+    }
 }
 
 /// What is left of the rows that close loops beside all others.
