@@ -21,8 +21,8 @@ const STEP: f64 = 0.3;
 /// Steps of a way.
 const STEPS: usize = 40;
 /// Steps of all ways times the velocities of the bodies: so that an expansion ends. Of a mechanism
-/// of hundreds of bodies some choices are looked at along the sweep only.
-const WORK: usize = 36_000;
+/// of dozens of bodies some choices are looked at along the sweep only.
+const WORK: usize = 18_000;
 /// How often a step that leads nowhere is halved.
 const HALVINGS: usize = 4;
 /// A change per radian that is nothing.
@@ -91,7 +91,7 @@ impl<'a> Descent<'a> {
         from: &Place,
         share: impl Fn(Vec<Vec<f64>>) -> Option<f64>,
     ) -> Option<[Place; 2]> {
-        let share = |place: &Place| share(self.rows(place)?);
+        let share = &|place: &Place| share(self.rows(place)?);
         [-1.0, 1.0].into_iter().find_map(|side| {
             let mut at = from.clone();
             let mut value = share(&at)?;
@@ -103,7 +103,7 @@ impl<'a> Descent<'a> {
                 }
                 self.work
                     .set(self.work.get().checked_sub(motions[0].len())?);
-                let slopes = self.slopes(&at, (value, &motions), &share)?;
+                let slopes = self.slopes(&at, (value, &motions), share)?;
                 let mut slope = norm(&slopes);
                 let next = match &heading {
                     Some(before) if slope < FLAT => along(&motions, &products(&motions, before)),
@@ -123,7 +123,7 @@ impl<'a> Descent<'a> {
                 if slope * value < 0.0 {
                     length = length.min((value / slope).abs());
                 }
-                let (reached, place) = self.step(&at, (value, &next, length), &share)?;
+                let (reached, place) = self.step(&at, (value, &next, length), share)?;
                 if reached * value < 0.0 || reached.abs() <= STEADY {
                     return Some([at, place]);
                 }

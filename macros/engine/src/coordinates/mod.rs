@@ -73,5 +73,6 @@ mod origins;
 mod reference;
 mod regroup;
 pub mod spanning;
+mod stops;
 pub mod system;
 mod wrenches;

@@ -7,7 +7,7 @@
 //! greatest value along a sweep where that varies little, which costs nothing.
 
 use super::beginning::Beginning;
-use super::dependent::sweep;
+use super::stops::sweep;
 use super::system::Reduced;
 use crate::plan::eliminate::Check;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
