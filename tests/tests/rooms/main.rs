@@ -43,7 +43,6 @@ const ENGINE_CIRCLES: [&[&str]; 3] = [
         "coordinates/handover",
         "coordinates/system",
     ],
-    &["coordinates/certain", "coordinates/dependent"],
 ];
 
 /// The circles of files in the run time.
@@ -89,7 +88,6 @@ const ENGINE_METHODS: [&[&str]; 9] = [
         "coordinates/reference",
         "coordinates/system",
     ],
-    &["coordinates/certain", "coordinates/dependent"],
     &[
         "emit/construction",
         "emit/coordinates",

@@ -4,7 +4,7 @@
 //! nothing can move but by its drivers. The driver of a hinge determines the hinge's velocity, the
 //! closing joint of a slider-crank that of the slide.
 
-use super::dependent::{ROUND_OFF, STEADY, shared};
+use super::stops::{ROUND_OFF, STEADY, shared};
 use crate::plan::Pivot;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::evaluate::evaluate;

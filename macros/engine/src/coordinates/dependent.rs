@@ -14,15 +14,13 @@ use super::beginning::Beginning;
 use super::certain;
 use super::descent::Descent;
 use super::links::Links;
-use super::stops::{Numbers, SINGULAR, Stop, largest, sweep};
+use super::stops::{
+    Numbers, ROUND_OFF, SINGULAR, STEADY, Stop, largest, passes_zero, shared, sweep,
+};
 use crate::plan::Pivot;
 use crate::rank::closing::Place;
 use crate::symbolic::arena::{Arena, Expr};
 
-/// A determinant that falls to this fraction of the volume that its rows span is not relied on.
-pub(super) const STEADY: f64 = 0.1;
-/// An entry below this fraction of the largest of its row is round-off.
-pub(super) const ROUND_OFF: f64 = 1e-12;
 /// A sweep of fewer stops tells nothing.
 const STOPS: usize = 4;
 
@@ -385,12 +383,6 @@ fn known(stops: &[Stop], row: usize) -> Vec<usize> {
     (0..width).filter(|&k| is_known[k]).collect()
 }
 
-/// Whether a share vanishes between two stops. In a singular position all shares change their signs
-/// at once, and keep their sizes.
-pub(super) fn passes_zero(before: f64, behind: f64) -> bool {
-    before * behind < 0.0 && before.abs() + behind.abs() < 1.0
-}
-
 /// The largest entry of each column and of those alike along a sweep, 1 where there is none.
 fn sizes(stops: &[Stop], alike: &[usize]) -> Vec<f64> {
     let mut sizes = vec![
@@ -408,16 +400,6 @@ fn sizes(stops: &[Stop], alike: &[usize]) -> Vec<f64> {
     shared(&sizes, alike)
         .map(|size| if size > 0.0 { size } else { 1.0 })
         .collect()
-}
-
-/// The largest number of those of one kind, in the place of each.
-pub(super) fn shared(sizes: &[f64], alike: &[usize]) -> impl Iterator<Item = f64> {
-    let of = move |kind: &usize| {
-        let pairs = sizes.iter().zip(alike);
-        let of_kind = pairs.filter(|(_, other)| *other == kind);
-        of_kind.fold(0.0, |largest: f64, (&size, _)| largest.max(size))
-    };
-    alike.iter().map(of)
 }
 
 fn determinant(Stop { rows: stop, .. }: &Stop, rows: &[usize], velocities: &[usize]) -> f64 {

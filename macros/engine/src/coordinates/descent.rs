@@ -8,9 +8,9 @@
 use std::cell::Cell;
 
 use super::beginning::Beginning;
-use super::dependent::{STEADY, passes_zero};
 use super::from_bodies::from_bodies;
 use super::links::Links;
+use super::stops::{STEADY, passes_zero};
 use crate::rank::closing::{Free, Place};
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::tape::Tape;

@@ -11,6 +11,10 @@ use crate::symbolic::evaluate::evaluate;
 /// singular position, and no choice is better than another.
 pub(super) const SINGULAR: f64 = 1e-3;
 
+/// A determinant that falls to this fraction of the volume that its rows span is not relied on.
+pub(super) const STEADY: f64 = 0.1;
+/// An entry below this fraction of the largest of its row is round-off.
+pub(super) const ROUND_OFF: f64 = 1e-12;
 /// Rows of `D` at a stop of a sweep, each about as large on free bodies as at others.
 pub(super) struct Stop {
     pub(super) rows: Vec<Vec<f64>>,
@@ -38,6 +42,22 @@ impl Stop {
             way,
         }
     }
+}
+
+/// Whether a share vanishes between two stops. In a singular position all shares change their signs
+/// at once, and keep their sizes.
+pub(super) fn passes_zero(before: f64, behind: f64) -> bool {
+    before * behind < 0.0 && before.abs() + behind.abs() < 1.0
+}
+
+/// The largest number of those of one kind, in the place of each.
+pub(super) fn shared(sizes: &[f64], alike: &[usize]) -> impl Iterator<Item = f64> {
+    let of = move |kind: &usize| {
+        let pairs = sizes.iter().zip(alike);
+        let of_kind = pairs.filter(|(_, other)| *other == kind);
+        of_kind.fold(0.0, |largest: f64, (&size, _)| largest.max(size))
+    };
+    alike.iter().map(of)
 }
 
 /// The inputs of some stops of a sweep, the first of which is the reference configuration; none

@@ -56,9 +56,9 @@ impl Profile {
     }
 }
 
-/// All joints in their order of elimination. What a joint carries stands before it, one branch after
-/// the other, the largest first: so little lies between a joint and those that it carries. Closing
-/// joints come last.
+/// All joints in their order of elimination. What a joint carries stands before it, one branch
+/// after the other, the largest first: so little lies between a joint and those that it carries.
+/// Closing joints come last.
 fn in_turn(model: &Model, tree: &Tree) -> Vec<usize> {
     let carrying = || tree.bodies.iter().filter_map(|&(_, joint)| joint);
     let mut carried: Vec<Vec<usize>> = vec![Vec::new(); model.joints.len()];
