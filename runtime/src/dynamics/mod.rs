@@ -39,7 +39,7 @@ use core::marker::PhantomData;
 use evaluate::VANISHED;
 pub(crate) use evaluate::{Evaluator, vanishes};
 pub(crate) use faults::singular;
-pub use problem::{Posed, Problem};
+pub use problem::{Posed, Problem, Solvable};
 
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::compliance::compliances;

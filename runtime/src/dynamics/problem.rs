@@ -2,8 +2,10 @@
 
 use core::marker::PhantomData;
 
+use crate::formulation::Formulation;
 use crate::math::scalar::Real;
-use crate::measure::load::NoForces;
+use crate::measure::load::{AppliedForces, NoForces};
+use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 
 /// A mechanism `M` over numbers `S`, with a formulation `F`, forces `A` beside those of its
@@ -67,6 +69,26 @@ impl<S: Real, M: Mechanism, F, A, C> Posed for Problem<S, M, F, A, C> {
     type Formulation = F;
     type Forces = A;
     type Coordinates = C;
+}
+
+/// A [`Problem`] whose parts go together: what can be solved. Nothing else implements it.
+pub trait Solvable:
+    Posed<
+        Formulation: Formulation<<Self as Posed>::Number>,
+        Forces: AppliedForces<<Self as Posed>::Number, <Self as Posed>::Mechanism>,
+        Coordinates: Coordinates<<Self as Posed>::Mechanism>,
+    >
+{
+}
+
+impl<S, M, F, A, C> Solvable for Problem<S, M, F, A, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+{
 }
 
 mod private {

@@ -198,6 +198,9 @@ pub enum Fault {
     /// A run with handlers, controllers, checkpoints or a trajectory was to be
     /// [`verified`](crate::Simulation::verified): what closures do cannot be done twice.
     NotVerified,
+    /// A run that its caller leads ([`Simulation::begin`](crate::Simulation::begin)) was to be
+    /// [`verified`](crate::Simulation::verified), to keep checkpoints or to record a trajectory.
+    NotLed,
     /// A trajectory does not know the time that it is asked for.
     OutsideTrajectory {
         /// The time (s).

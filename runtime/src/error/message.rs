@@ -193,6 +193,10 @@ impl fmt::Display for Fault {
                 "a run with handlers, controllers, checkpoints or a trajectory has no companion that `verified()` could compare it with, for closures cannot be called twice; compare with a second \
                  run of another tolerance or step"
             ),
+            Self::NotLed => write!(
+                f,
+                "a run that is led by `begin()` is not verified, keeps no checkpoints and records no trajectory; `run(..)` does so, with an observer"
+            ),
             Self::SlidingLaw { .. }
             | Self::OnSwitch { .. }
             | Self::SwitchUndecided { .. }

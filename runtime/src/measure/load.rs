@@ -111,6 +111,7 @@ pub struct NoForces;
 
 impl Sealed for NoForces {}
 impl<A: Sealed> Sealed for &A {}
+impl<A> Sealed for Led<A> {}
 impl<G> Sealed for ForceLaw<G> {}
 
 impl<S: Scalar, M: Mechanism> AppliedForces<S, M> for NoForces {
@@ -142,56 +143,68 @@ impl<S: Scalar, M: Mechanism> AppliedForces<S, M> for NoForces {
     }
 }
 
-impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for &A {
-    const PRESENT: bool = A::PRESENT;
-    const INTERACTS: bool = A::INTERACTS;
-    const HEEDS: bool = A::HEEDS;
-    const OF_RUN: bool = true;
+/// Those that another one holds, as forces of a run.
+macro_rules! forces_of_a_run {
+    ($held:ty, $this:ident => $forces:expr) => {
+        impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for $held {
+            const PRESENT: bool = A::PRESENT;
+            const INTERACTS: bool = A::INTERACTS;
+            const HEEDS: bool = A::HEEDS;
+            const OF_RUN: bool = true;
 
-    type Tracked = A::Tracked;
-    type Own = A::Own;
-    type With<B: AppliedForces<S, M>> = B;
+            type Tracked = A::Tracked;
+            type Own = A::Own;
+            type With<B: AppliedForces<S, M>> = B;
 
-    #[inline(always)]
-    fn apply(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>) {
-        A::apply(self, time, state, loads);
-    }
+            #[inline(always)]
+            fn apply(&$this, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>) {
+                A::apply($forces, time, state, loads);
+            }
 
-    fn tracked(&self, parameters: &M::Parameters<S>) -> A::Tracked
-    where
-        S: Real,
-    {
-        A::tracked(self, parameters)
-    }
+            fn tracked(&$this, parameters: &M::Parameters<S>) -> A::Tracked
+            where
+                S: Real,
+            {
+                A::tracked($forces, parameters)
+            }
 
-    fn own(&self, parameters: &M::Parameters<S>) -> A::Own
-    where
-        S: Real,
-    {
-        A::own(self, parameters)
-    }
+            fn own(&$this, parameters: &M::Parameters<S>) -> A::Own
+            where
+                S: Real,
+            {
+                A::own($forces, parameters)
+            }
 
-    fn with<B: AppliedForces<S, M>>(self, forces: B) -> B {
-        forces
-    }
+            fn with<B: AppliedForces<S, M>>($this, forces: B) -> B {
+                forces
+            }
 
-    fn interactions(&self) -> &[Tracked<S, M>] {
-        A::interactions(self)
-    }
+            fn interactions(&$this) -> &[Tracked<S, M>] {
+                A::interactions($forces)
+            }
 
-    #[inline(always)]
-    fn interact<F: Formulation<S>, C: Coordinates<M>>(
-        &self,
-        setting: &Setting<'_, S, M, F, C>,
-        reactions: Option<Reactions<'_, S, M, F>>,
-        task: Task<'_, S, M, C>,
-    ) -> Result<(), Fault>
-    where
-        S: Real,
-    {
-        A::interact(self, setting, reactions, task)
-    }
+            #[inline(always)]
+            fn interact<F: Formulation<S>, C: Coordinates<M>>(
+                &$this,
+                setting: &Setting<'_, S, M, F, C>,
+                reactions: Option<Reactions<'_, S, M, F>>,
+                task: Task<'_, S, M, C>,
+            ) -> Result<(), Fault>
+            where
+                S: Real,
+            {
+                A::interact($forces, setting, reactions, task)
+            }
+        }
+    };
 }
+
+/// Forces of a run that its caller leads ([`Simulation::begin`](crate::Simulation::begin)).
+#[derive(Clone, Copy, Debug)]
+pub struct Led<A>(pub(crate) A);
+
+forces_of_a_run!(&A, self => self);
+forces_of_a_run!(Led<A>, self => &self.0);
 
 /// Forces from a closure `Fn(time, &state, &mut loads)`.
 #[derive(Clone, Copy, Debug)]

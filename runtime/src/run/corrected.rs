@@ -12,7 +12,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Whether the last step has ended near to a singular configuration that the motion passes.
     #[inline]
     pub(crate) fn is_near_to_branches(&self) -> bool {
-        self.settings.may_branch && self.march.is_near_to_branches()
+        self.course.settings.may_branch && self.march.is_near_to_branches()
     }
 
     /// Whether the end of the last step is corrected.
@@ -62,11 +62,11 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             Ok(residual) => residual,
             Err(fault) => {
                 // A correction that fails may leave any velocities.
-                self.gone = Some(fastest::<S, M>(constants, &reached));
+                self.course.gone = Some(fastest::<S, M>(constants, &reached));
                 return Err(fault);
             }
         };
-        if let Some(monitor) = &mut self.monitor
+        if let Some(monitor) = &mut self.course.monitor
             && residual > S::zero()
         {
             monitor.accept_unconverged_correction(time);

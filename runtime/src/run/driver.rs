@@ -1,32 +1,44 @@
 //! The integration of a run: from step to step, and from one end of its integration to the next.
 //!
 //! It knows nobody who looks on. A step is taken and looked into (`taken.rs`); then its end is
-//! corrected, shown to the monitor and accepted (`commit.rs`).
+//! corrected, shown to the monitor and accepted (`commit.rs`). Between two integrations an instant
+//! is handled (`events/handling.rs`). Three lead a driver: a run with observers (`observed.rs`), a
+//! companion beside it (`companion.rs`), and a user's own loop (`led.rs`).
 
 use crate::integrate::{Counts, Method};
 use crate::math::scalar::Real;
-use crate::mechanism::at::StateAt;
+use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::Monitor;
-use crate::run::events::list::Hybrid;
+use crate::run::events::list::{Happenings, Hybrid};
+use crate::run::events::switching::Switching;
+use crate::run::leg::Begun;
 use crate::run::passing::Passing;
 use crate::run::post_step::PostStabilisation;
-use crate::run::within::Looks;
+use crate::run::report::RunReport;
 use crate::stepping::marching::{Marching, Settings};
 
-/// What a run moves, and what it remembers of the motion.
+/// What a run moves, with what it remembers of the motion.
 pub(crate) struct Driver<'r, S: Real, M: Mechanism> {
     /// What is integrated.
     pub(crate) march: &'r mut (dyn Marching<S, M> + 'r),
-    pub(crate) settings: Settings<S>,
+    /// Events and controllers.
+    pub(crate) list: &'r mut (dyn Happenings<S, M> + 'r),
+    /// Laws that switch, where there are any.
+    pub(crate) switching: Option<&'r mut Switching<S, M>>,
     /// What is done to states after steps and before reports.
     pub(crate) stabilisation: Option<&'r dyn PostStabilisation<S, M>>,
     /// Instants (s) at which the integration begins anew, in any order, besides those of the
     /// description.
     pub(crate) breaks: &'r [S],
+    pub(crate) course: &'r mut Course<S, M>,
+}
+
+/// What a driver remembers of the motion.
+pub(crate) struct Course<S: Real, M: Mechanism> {
+    pub(crate) settings: Settings<S>,
     pub(crate) monitor: Option<Monitor<S, M>>,
-    /// Events and controllers.
-    pub(crate) hybrid: Hybrid<'r, S, M>,
+    pub(crate) hybrid: Hybrid<S, M>,
     /// Lengths that pass through zero.
     pub(crate) passing: Passing<S>,
     /// Steps so far, and those since a state was shown.
@@ -37,52 +49,17 @@ pub(crate) struct Driver<'r, S: Real, M: Mechanism> {
     pub(crate) gone: Option<S>,
 }
 
-/// A step that was taken, and looked into for the monitor. In a place of its own over all steps, as
-/// it is long and mostly empty.
-pub(crate) struct Taken<S: Real, M: Mechanism> {
-    /// When it ends (s).
-    pub(crate) end: S,
-    /// The first event within it.
-    pub(crate) event: Option<StateAt<S, M>>,
-    /// Where a rule of higher order would have led, where that is asked.
-    pub(crate) better: Option<M::State<S>>,
-    /// What has looked into it.
-    pub(crate) looks: Looks,
-}
-
-impl<S: Real, M: Mechanism> Taken<S, M> {
-    pub(crate) fn none() -> Self {
-        Self {
-            end: S::zero(),
-            event: None,
-            better: None,
-            looks: Looks::NONE,
-        }
-    }
-}
-
-/// An integration that was begun.
-#[derive(Clone, Copy)]
-pub(crate) struct Begun<S> {
-    /// When (s).
-    pub(crate) start: S,
-    /// What interpolants have evaluated for the monitor, which is no part of the run.
-    pub(crate) of_monitor: usize,
-}
-
-impl<'r, S: Real, M: Mechanism> Driver<'r, S, M> {
-    /// Before a run by a method, without a monitor.
+impl<S: Real, M: Mechanism> Course<S, M> {
+    /// Before a run by a method.
     pub(crate) fn new<I: Method<S>>(
-        march: &'r mut (dyn Marching<S, M> + 'r),
+        settings: Settings<S>,
         integrator: &I,
-        hybrid: Hybrid<'r, S, M>,
+        hybrid: Hybrid<S, M>,
+        monitor: Option<Monitor<S, M>>,
     ) -> Self {
         Self {
-            settings: march.settings(),
-            march,
-            stabilisation: None,
-            breaks: &[],
-            monitor: None,
+            settings,
+            monitor,
             hybrid,
             passing: Passing::by(integrator),
             steps: 0,
@@ -91,14 +68,36 @@ impl<'r, S: Real, M: Mechanism> Driver<'r, S, M> {
             gone: None,
         }
     }
+}
 
-    /// With what is done to states after steps, and instants (s) at which integrations begin anew.
-    pub(crate) fn stabilised_by(
-        mut self,
-        stabilisation: Option<&'r dyn PostStabilisation<S, M>>,
-        breaks: &'r [S],
-    ) -> Self {
-        (self.stabilisation, self.breaks) = (stabilisation, breaks);
-        self
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
+    /// What a run has come to, up to a state, with an integration under way if there is one.
+    pub(crate) fn report(
+        &self,
+        under_way: Option<&Begun<S>>,
+        At { time, bodies }: StateAt<S, M>,
+    ) -> RunReport<S, M> {
+        let equations = self.march.equations();
+        let counts = match under_way {
+            Some(begun) => self.counts_with(begun),
+            None => self.course.counts,
+        };
+        let mut monitor = self.course.monitor;
+        if let Some(monitor) = &mut monitor {
+            equations.name_smallest_pivot(monitor);
+            monitor.end(equations.constants(), time, &bodies);
+        }
+        RunReport {
+            evaluations: counts.evaluations,
+            accepted: counts.accepted,
+            rejected: counts.rejected,
+            worst_violation: S::zero(),
+            iterations: equations.iterations(),
+            time,
+            state: bodies,
+            stopped: false,
+            verification: None,
+            monitor,
+        }
     }
 }

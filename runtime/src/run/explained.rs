@@ -22,7 +22,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let equations = self.march.equations();
         let not_finite = matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite);
         if not_finite
-            && let (Some(step), Some(rate)) = (self.settings.fixed_step, equations.decay_rate())
+            && let (Some(step), Some(rate)) =
+                (self.course.settings.fixed_step, equations.decay_rate())
             && step * rate > S::constant(STABLE)
         {
             return Fault::StepTooLong {
@@ -35,7 +36,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         // long whatever came of it: pivots of such numbers may vanish, too.
         let turned = match fault {
             Fault::Singular { .. } => Some(BEYOND),
-            Fault::ZeroOrientation { .. } => self.gone.is_some().then_some(1.0),
+            Fault::ZeroOrientation { .. } => self.course.gone.is_some().then_some(1.0),
             // Points that an unstable method throws across each other, step by step.
             Fault::SlidingLaw {
                 expression: LENGTH, ..
@@ -45,20 +46,20 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
                 let length = characteristic_length::<S, M>(constants, state);
                 let is_wide = exceeds(S::constant(residual), BEYOND * length.to_f64());
                 let is_lost = is_wide || !M::REPORT.time.constraints;
-                (self.gone.is_some() && is_lost).then_some(1.0)
+                (self.course.gone.is_some() && is_lost).then_some(1.0)
             }
             _ => not_finite.then_some(1.0),
         };
         let rate = fastest::<S, M>(constants, state);
-        let rate = self.gone.map_or(rate, |gone| rate.max(gone));
-        if let (Some(turned), Some(step)) = (turned, self.settings.fixed_step)
+        let rate = self.course.gone.map_or(rate, |gone| rate.max(gone));
+        if let (Some(turned), Some(step)) = (turned, self.course.settings.fixed_step)
             && exceeds(step * rate, turned)
         {
             return Fault::Unstable {
                 step: step.to_f64(),
             };
         }
-        equations.explained(fault, self.settings.absolute, last_good)
+        equations.explained(fault, self.course.settings.absolute, last_good)
     }
 }
 

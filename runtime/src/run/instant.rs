@@ -4,18 +4,30 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::under_way::Run;
+use crate::run::driver::Driver;
+use crate::run::observed::Observed;
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
+/// What an instant was.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Handled {
+    /// The first event in the list of those that were found.
+    pub(crate) event: Option<&'static str>,
+    /// The motion goes on in a new way.
+    pub(crate) is_new: bool,
+    /// A handler or a controller stops the run.
+    pub(crate) stops: bool,
+}
+
+impl<S: Real, M: Mechanism> Observed<'_, S, M> {
     /// Shows an event that was found, turns laws that have switched, calls handlers and
     /// controllers. The state is the one with which the run goes on; it is shown where anything has
     /// changed it.
     pub(super) fn happen(&mut self, last_good: &mut StateAt<S, M>) -> Result<(), Fault> {
-        if self.driver.hybrid.is_empty {
+        if self.driver.course.hybrid.is_empty {
             return Ok(());
         }
-        let is_found = core::mem::take(&mut self.driver.hybrid.is_found);
-        if is_found && self.driver.unseen > 0 {
+        let is_found = core::mem::take(&mut self.driver.course.hybrid.is_found);
+        if is_found && self.driver.course.unseen > 0 {
             self.schedule.at(last_good.time, 0);
             self.show(last_good.time, &last_good.bodies);
         }
@@ -23,18 +35,36 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             return Ok(());
         }
         let is_turned = self.driver.turn(last_good.time, &last_good.bodies)?;
-        let unseen = self.driver.unseen;
+        let unseen = self.driver.course.unseen;
         if is_turned && unseen > 0 && self.schedule.at(last_good.time, unseen) {
             self.show(last_good.time, &last_good.bodies);
         }
         let done = self.driver.act(is_found || is_turned, last_good)?;
-        let is_unseen = done.stops && self.driver.unseen > 0;
-        if done.moved || self.driver.hybrid.is_switched || is_unseen {
+        let is_unseen = done.stops && self.driver.course.unseen > 0;
+        if done.moved || self.driver.course.hybrid.is_switched || is_unseen {
             self.show(last_good.time, &last_good.bodies);
         }
         if done.stops {
             self.log.stop();
         }
         Ok(())
+    }
+}
+
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
+    /// The same where nobody looks on. Whether anything has happened, and whether it stops the run.
+    pub(crate) fn handle(&mut self, at: &mut StateAt<S, M>) -> Result<Handled, Fault> {
+        if self.course.hybrid.is_empty {
+            return Ok(Handled::default());
+        }
+        let is_found = core::mem::take(&mut self.course.hybrid.is_found);
+        let is_turned = self.turn(at.time, &at.bodies)?;
+        let done = self.act(is_found || is_turned, at)?;
+        let event = self.course.hybrid.event.take().filter(|_| is_found);
+        Ok(Handled {
+            event,
+            is_new: is_found || is_turned || done.moved || self.course.hybrid.is_switched,
+            stops: done.stops,
+        })
     }
 }

@@ -3,10 +3,12 @@
 //! `simulation.rs` is what a user says of a run, and `runs.rs` begins it. `driver.rs` leads the
 //! integration from step to step, and knows nobody who looks on. `taken.rs` takes a step,
 //! `corrected.rs` brings its end back onto the constraints, `commit.rs` accepts it, `explained.rs`
-//! says why a step cannot be taken. `segments.rs` leads a run, and `under_way.rs` is what it has: a
-//! driver, and whom its states are shown to. `instant.rs` is what is done and shown between two
+//! says why a step cannot be taken. `prepared.rs` is what it begins with, and `leg.rs` is one
+//! integration of it. `observed.rs` leads a run and shows its states. `instant.rs` is what is done and shown between two
 //! integrations. `Driver::act` in `events/handling.rs` has its phases.
-//! `companion.rs` leads a second driver beside the first, for `verification.rs`.
+//! `pulled.rs` asks a driver for one thing after the other: for
+//! `companion.rs`, which leads a second driver beside the first, for `verification.rs`, and for
+//! `led.rs`, a run that its caller leads.
 //!
 //! A post-stabilisation is a trait object (`post_step.rs`): a corrected step costs far more than a
 //! call, and runs need no type for each. The stabilisation `TreeRecovery` goes from bodies to joint
@@ -42,11 +44,16 @@ mod explained;
 mod instant;
 pub(crate) mod interactions;
 pub(crate) mod kinematics;
+pub(crate) mod led;
+mod leg;
+mod observed;
 pub(crate) mod output;
 mod passages;
 pub(crate) mod passing;
 pub(crate) mod past;
 pub(crate) mod post_step;
+mod prepared;
+mod pulled;
 #[cfg(feature = "recorder")]
 pub(crate) mod record_error;
 #[cfg(feature = "recorder")]
@@ -55,14 +62,12 @@ pub(crate) mod report;
 pub(crate) mod resumed;
 pub(crate) mod runs;
 pub(crate) mod sample;
-mod segments;
 pub(crate) mod simulate;
 pub(crate) mod simulation;
 pub(crate) mod stepper;
 mod taken;
 #[cfg(feature = "std")]
 pub(crate) mod trajectory;
-pub(crate) mod under_way;
 pub(crate) mod verification;
 pub(crate) mod within;
 mod worked;
@@ -83,6 +88,7 @@ pub use events::context::Event;
 pub use events::list::{Happenings, NothingHappens};
 pub use events::setters::Handling;
 pub use kinematics::KinematicResult;
+pub use led::{Leads, Reached, Run};
 pub use output::{IntoFlow, Reporting};
 pub use post_step::{PostStabilisation, TreeRecovery, VelocityProjection};
 #[cfg(feature = "recorder")]

@@ -18,8 +18,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if M::SEPARATIONS.is_empty() {
             return Ok(true);
         }
-        if self.passing.skipped > 0 {
-            self.passing.skipped -= 1;
+        if self.course.passing.skipped > 0 {
+            self.course.passing.skipped -= 1;
             return Ok(true);
         }
         self.look_for_passages(start, end)
@@ -33,26 +33,30 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     ) -> Result<bool, Fault> {
         let bodies = self.march.bodies_near(near);
         let ends = [(start, near), (end, &bodies)];
-        let mut judged = judged::<S, M>(self.march.equations().constants(), ends, &self.passing);
-        if let (false, Some(monitor)) = (judged.is_far, &mut self.monitor) {
+        let mut judged = judged::<S, M>(
+            self.march.equations().constants(),
+            ends,
+            &self.course.passing,
+        );
+        if let (false, Some(monitor)) = (judged.is_far, &mut self.course.monitor) {
             monitor.comes_close();
             if judged.passes {
                 monitor.passes(judged.turns.is_some());
             }
         }
-        if self.passing.takes_all {
+        if self.course.passing.takes_all {
             return Ok(true);
         }
-        if judged.turns.is_none() && !judged.is_far && self.passing.last.is_some() {
+        if judged.turns.is_none() && !judged.is_far && self.course.passing.last.is_some() {
             judged.turns = self.misses([(start, near), (end, &bodies)]);
         }
-        let is_near = judged.turns.is_some() || self.passing.limit.is_some();
+        let is_near = judged.turns.is_some() || self.course.passing.limit.is_some();
         let size = if is_near {
             self.places(&bodies)
         } else {
             S::zero()
         };
-        let taken = self.passing.takes(&judged, (start, end), size);
+        let taken = self.course.passing.takes(&judged, (start, end), size);
         taken.map_err(|place| holds::<S, M>(place, end))
     }
 
@@ -89,7 +93,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     #[cold]
     #[inline(never)]
     pub(super) fn tries_again(&mut self, (time, state): (S, &M::State<S>), step: S) -> bool {
-        let step = self.passing.limit.unwrap_or(step).min(step);
+        let step = self.course.passing.limit.unwrap_or(step).min(step);
         if M::SEPARATIONS.is_empty() {
             return false;
         }
@@ -99,20 +103,20 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let end = time + S::constant(2.0) * step;
         let later = state.plus([(end - time, &rates)]);
         let ends = [(time, state), (end, &later)];
-        let judged = judged::<S, M>(constants, ends, &self.passing);
+        let judged = judged::<S, M>(constants, ends, &self.course.passing);
         let Some(place) = judged.turns else {
             return false;
         };
         let size = self.places(state);
-        let least = self.passing.least_of(&judged, (time, end), size);
+        let least = self.course.passing.least_of(&judged, (time, end), size);
         let across = S::constant(ACROSS) * least;
         let next = (judged.from_start * (end - time)).min(S::constant(0.5) * step);
         // It has failed though it was across.
-        if step <= across && self.passing.limit.is_some() {
+        if step <= across && self.course.passing.limit.is_some() {
             return false;
         }
-        self.passing.plan(next, least, place);
-        self.passing.refuse(time)
+        self.course.passing.plan(next, least, place);
+        self.course.passing.refuse(time)
     }
 
     /// Goes across a length of zero by the velocities, up to a time (s) at the most; whether that
@@ -125,18 +129,18 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         }: &mut StateAt<S, M>,
         until: S,
     ) -> Result<bool, Fault> {
-        let Some(step) = self.passing.across.take() else {
+        let Some(step) = self.course.passing.across.take() else {
             return Ok(false);
         };
-        self.passing.next = self.passing.limit.take();
-        self.passing.ends_with_a_jump();
+        self.course.passing.next = self.course.passing.limit.take();
+        self.course.passing.ends_with_a_jump();
         let end = until.min(*time + step);
         let rates = M::coordinate_rates(self.march.equations().constants(), state);
         let rates = M::State::from_parts(rates, Array::zeros());
         *state = state.plus([(end - *time, &rates)]);
         *time = end;
-        self.unseen += 1;
-        let counted = self.passing.count(end, self.passing.place);
+        self.course.unseen += 1;
+        let counted = self.course.passing.count(end, self.course.passing.place);
         counted.map_err(|place| holds::<S, M>(place, end))?;
         Ok(true)
     }
@@ -161,15 +165,15 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             is_zero |= dot(&at, &at) <= S::zero();
         });
         if is_zero {
-            let longest = self.passing.longest;
+            let longest = self.course.passing.longest;
             let step = if longest > S::zero() { longest } else { left };
             let rates = M::coordinate_rates(constants, state);
             let rates = M::State::from_parts(rates, Array::zeros());
             let (end, later) = (*time + step, state.plus([(step, &rates)]));
             let ends = [(*time, &*state), (end, &later)];
-            let judged = judged::<S, M>(constants, ends, &self.passing);
+            let judged = judged::<S, M>(constants, ends, &self.course.passing);
             let size = self.places(state);
-            let least = self.passing.least_of(&judged, (*time, end), size);
+            let least = self.course.passing.least_of(&judged, (*time, end), size);
             *state = state.plus([(least.min(step), &rates)]);
         }
     }

@@ -6,9 +6,10 @@ use crate::integrate::{Memory, TimeSpan};
 use crate::math::scalar::Real;
 use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::driver::{Begun, Driver};
+use crate::run::driver::Driver;
+use crate::run::leg::Begun;
+use crate::run::observed::Observed;
 use crate::run::past::{Past, PastSegment};
-use crate::run::under_way::Run;
 use crate::run::worked::begin_to_watch;
 use crate::state::vector::Array;
 
@@ -46,7 +47,7 @@ pub(crate) fn take_values<S: Real, M: Mechanism>(
     equations.renew_limits()
 }
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
+impl<S: Real, M: Mechanism> Observed<'_, S, M> {
     /// Takes over what was counted, and what events, interactions and the monitor remember; where
     /// (s) the integration goes on.
     pub(crate) fn take_past(
@@ -75,9 +76,9 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         }
         self.driver.hold();
         let progress = &past.progress;
-        self.driver.steps = progress.steps;
-        self.driver.counts = progress.counts;
-        self.driver.unseen = progress.unseen;
+        self.driver.course.steps = progress.steps;
+        self.driver.course.counts = progress.counts;
+        self.driver.course.unseen = progress.unseen;
         self.log.worst_violation = progress.worst_violation;
         let (time, state) = past.at.borrowed();
         #[cfg(feature = "std")]
@@ -86,7 +87,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             self.driver.check_rates(Some((time, state)), past)?;
         }
         let equations = self.driver.march.equations_mut();
-        if let Some(monitor) = &mut self.driver.monitor {
+        if let Some(monitor) = &mut self.driver.course.monitor {
             match past.monitor {
                 Some((kept, seen)) => {
                     *monitor = *kept;
@@ -98,7 +99,9 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         equations.recall_iterations(progress.iterations);
         Ok(())
     }
+}
 
+impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Makes an integration that is begun anew the one that was under way.
     pub(crate) fn go_on(
         &mut self,
@@ -106,52 +109,73 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         segment: &PastSegment<'_, S>,
         past: &Past<'_, S, M>,
     ) -> Result<Begun<S>, Fault> {
-        if !self.driver.march.start_again(span, segment.state)? {
+        if !self.march.start_again(span, segment.state)? {
             return Err(refused(CheckpointFault::Memory));
         }
         let mut is_kept = false;
-        let is_whole =
-            { segment.memory }.read(|memory| is_kept = self.driver.march.remember(memory));
+        let is_whole = { segment.memory }.read(|memory| is_kept = self.march.remember(memory));
         if !is_kept {
             return Err(refused(CheckpointFault::Forgetful));
         }
         let (time, state) = past.at.borrowed();
-        if !is_whole || self.driver.march.time() != time {
+        if !is_whole || self.march.time() != time {
             return Err(refused(CheckpointFault::Memory));
         }
-        let seen = self.driver.march.equations().seen();
-        self.driver.check_rates(None, past)?;
-        if let Some(monitor) = &mut self.driver.monitor {
+        let seen = self.march.equations().seen();
+        self.check_rates(None, past)?;
+        if let Some(monitor) = &mut self.course.monitor {
             if past.monitor.is_none() {
                 monitor.restart();
-                begin_to_watch(monitor, self.driver.march, state);
+                begin_to_watch(monitor, self.march, state);
             } else {
-                self.driver.march.equations_mut().recall(seen);
+                self.march.equations_mut().recall(seen);
             }
         }
         let iterations = past.progress.iterations;
-        self.driver
-            .march
-            .equations_mut()
-            .recall_iterations(iterations);
+        self.march.equations_mut().recall_iterations(iterations);
         Ok(Begun {
             start: segment.start,
             of_monitor: segment.of_monitor,
         })
     }
-}
 
-impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Hands over what is remembered between two steps, besides the integration and the monitor.
     pub(crate) fn remember_between(&mut self, memory: &mut Memory<'_, S>) {
-        if !self.hybrid.is_empty {
-            let interactions = self.march.equations().interactions();
-            self.hybrid.remember(interactions, memory);
+        if !self.course.hybrid.is_empty {
+            self.remember_happenings(memory);
             if !M::SEPARATIONS.is_empty() {
-                self.passing.remember(memory);
+                self.course.passing.remember(memory);
             }
         }
         self.march.remember_branches(memory);
+    }
+
+    /// Hands over what events, controllers, interactions and laws that switch remember.
+    fn remember_happenings(&mut self, memory: &mut Memory<'_, S>) {
+        let interactions = self.march.equations().interactions();
+        let hybrid = &mut self.course.hybrid;
+        if hybrid.watches || self.switching.is_some() || !interactions.is_empty() {
+            memory.number(&mut hybrid.longest);
+            memory.flag(&mut hybrid.is_fresh);
+        }
+        if !interactions.is_empty() {
+            hybrid.changes.remember(memory);
+        }
+        for tracked in interactions {
+            tracked.remember(memory);
+        }
+        if let Some(switching) = &mut self.switching {
+            switching.remember(memory);
+        }
+        let _ = self.list.each(&mut |happening| {
+            if let Some(watch) = happening.watch() {
+                watch.remember(memory);
+            }
+            if let Some(period) = happening.period() {
+                period.remember(memory);
+            }
+            Ok(())
+        });
     }
 
     /// Refuses a checkpoint of other rates than those at hand: at the end of the last step, or of

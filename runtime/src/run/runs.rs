@@ -2,9 +2,6 @@
 
 use core::ops::{ControlFlow, RangeInclusive};
 
-use crate::assembly::assembled;
-use crate::assembly::consistent_start::check_start;
-use crate::constraints::row_units::characteristic_length;
 use crate::dynamics::{Dynamics, Problem};
 use crate::error::Fault;
 use crate::formulation::Formulation;
@@ -15,25 +12,22 @@ use crate::measure::load::{AppliedForces, NoForces};
 use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
-use crate::mechanism::limits::Several as _;
-use crate::mechanism::orientations::check_state;
-use crate::monitor::Monitor;
 #[cfg(feature = "std")]
 use crate::run::checkpoint::Checkpoint;
 use crate::run::companion::Companion;
-use crate::run::driver::Driver;
+use crate::run::driver::{Course, Driver};
 use crate::run::events::list::{Happenings, Hybrid, NothingHappens};
 use crate::run::events::switching::Switching;
-use crate::run::output::{IntoFlow, Reporting, Schedule, check_interval, outcome};
+use crate::run::observed::{Log, Observed, Observer};
+use crate::run::output::{IntoFlow, Reporting, Schedule, outcome};
 use crate::run::past::{Past, Plan, Planned};
-use crate::run::post_step::PostStabilisation;
+use crate::run::prepared::Prepared;
 use crate::run::report::{RunReport, RunResult};
-use crate::run::resumed::take_values;
 use crate::run::sample::Sample;
-use crate::run::simulation::{Setup, Simulation, Source};
-use crate::run::under_way::{Log, Observer, Run};
+use crate::run::simulation::{Setup, Simulation};
 use crate::state::vector::{Array, StateParts};
 use crate::stepping::march::March;
+use crate::stepping::marching::Marching as _;
 
 /// The interval (s) of a run, when it reports, and where it goes on.
 type ToDo<'p, S, M> = ((S, S), Reporting<S>, Option<&'p Past<'p, S, M>>);
@@ -100,7 +94,7 @@ where
         R: IntoFlow,
     {
         self.setup
-            .run_with(None, Planned(interval, reporting), observe)
+            .run_with(&self.forces, None, Planned(interval, reporting), observe)
     }
 
     /// Goes on from a [`Checkpoint`] to the end of its interval: what is
@@ -145,7 +139,7 @@ where
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
-        self.setup.run_with(None, checkpoint, observe)
+        self.setup.run_with(&self.forces, None, checkpoint, observe)
     }
 }
 
@@ -176,8 +170,12 @@ where
         R: IntoFlow,
     {
         let happenings = Some(&mut self.happenings as &mut dyn Happenings<S, M>);
-        self.setup
-            .run_with(happenings, Planned(interval, reporting), observe)
+        self.setup.run_with(
+            &self.forces,
+            happenings,
+            Planned(interval, reporting),
+            observe,
+        )
     }
 
     /// Goes on from a [`Checkpoint`] with events and controllers: the same ones as in its run, in
@@ -198,7 +196,8 @@ where
         R: IntoFlow,
     {
         let list: &mut dyn Happenings<S, M> = &mut self.happenings;
-        self.setup.run_with(Some(list), checkpoint, observe)
+        self.setup
+            .run_with(&self.forces, Some(list), checkpoint, observe)
     }
 }
 
@@ -214,6 +213,7 @@ where
     /// Runs with what happens, as it is planned.
     pub(super) fn run_with<O, R>(
         &self,
+        forces: &A,
         happenings: Option<&mut dyn Happenings<S, M>>,
         plan: impl Plan<S, M>,
         mut observe: O,
@@ -239,123 +239,83 @@ where
         let past = plan.past(&self.integrator, &self.formulation, C::IS_RELATIVE);
         let report = past.and_then(|past| {
             let plan = (interval, reporting, past.as_ref());
-            self.attempt(happenings, plan, &mut observe, &mut last_good)
+            self.attempt(forces, happenings, plan, &mut observe, &mut last_good)
         });
         outcome::<R, _, _, _>(report, failure, (last_good.time, last_good.bodies))
     }
 
     fn attempt(
         &self,
+        forces: &A,
         happenings: Option<&mut dyn Happenings<S, M>>,
-        ((start, end), reporting, past): ToDo<'_, S, M>,
+        (interval, reporting, past): ToDo<'_, S, M>,
         observe: &mut Observer<'_, S, M>,
         last_good: &mut StateAt<S, M>,
     ) -> Result<RunReport<S, M>, Fault>
     where
         I: Runs<S, M, F, C, A>,
     {
-        let dynamics = match self.mechanism {
-            Source::Mechanism(mechanism) => Dynamics::new(mechanism, self.formulation),
-            Source::Parameters(given) => Dynamics::of_parameters(given, self.formulation),
-        }?;
-        let given = *dynamics.parameters();
-        let forces = Heeding::new(&self.forces, &given);
-        let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
-        let described = M::initial_state(dynamics.constants());
-        let length = characteristic_length::<S, M>(dynamics.constants(), &described);
-        let integrator = &self.integrator.for_length(length);
-        if let Some(past) = past {
-            take_values(&mut dynamics, past)?;
+        let (start, end) = interval;
+        let is_unverifiable = self.is_verified && (happenings.is_some() || past.is_some());
+        let mut nothing = NothingHappens;
+        let is_bare = happenings.is_none();
+        let list = happenings.unwrap_or(&mut nothing);
+        let plan = (interval, past);
+        let mut prepared = self.prepared(forces, (&mut *list, is_bare), plan, last_good)?;
+        let Prepared {
+            integrator, given, ..
+        } = prepared;
+        if is_unverifiable {
+            return Err(Fault::NotVerified);
         }
-        let constants = *dynamics.constants();
-        let described = || M::initial_state(&constants);
-        *last_good = past.map_or_else(
-            || At {
-                time: start,
-                bodies: self.initial.unwrap_or_else(described),
-            },
-            |past| past.at,
-        );
-        self.check_times([start, last_good.time, end])?;
         let schedule = Schedule::new(start, end, reporting)?;
         let schedule = schedule.after(past.map_or(0, |past| past.progress.reports));
-        // Laws that switch and interactions make events of their own.
-        let has_own = !M::SWITCHES.is_empty() || A::Tracked::COUNT > 0;
-        let is_empty = happenings.is_none() && !has_own;
-        if self.is_verified && happenings.is_some() {
-            return Err(Fault::NotVerified);
-        }
-        let mut nothing = NothingHappens;
-        let list = happenings.unwrap_or(&mut nothing);
-        let mut hybrid = Hybrid::new(list, &given, self.accepts_any_start, (start, end))?;
-        hybrid.is_empty = is_empty;
-        if let Some(past) = past {
-            hybrid = hybrid.resumed(past);
-        }
-        let mut switching = (!M::SWITCHES.is_empty()).then(Switching::new);
-        hybrid.switching = switching.as_mut();
-        check_state::<S, M>(&last_good.bodies)?;
-        if past.is_none() {
-            last_good.bodies = self.start(&constants, (start, end), last_good.bodies, described)?;
-        } else if self.is_verified {
-            return Err(Fault::NotVerified);
-        }
-        let state = last_good.bodies;
-        let monitor = self.is_monitored.then(|| {
-            Monitor::new(&constants, last_good.time, &state)
-                .of_joints(C::keeps_equations)
-                .over(integrator)
-                .decaying(self.formulation.decay_rate())
-        });
-        let projection = self.projection.as_ref();
-        let projection = projection.map(|projection| projection as &dyn PostStabilisation<S, M>);
-        let stabilisation = self.stabilisation.or(projection);
         let beside = integrator.companion(end - start);
         let beside = beside.filter(|_| self.is_verified);
         let mut beside = beside
-            .map(|method| self.beside(method, given))
+            .map(|method| self.beside(forces, method, given))
             .transpose()?;
-        let (mut nothing, has_sides) = (NothingHappens, !M::SWITCHES.is_empty());
-        let mut sides = (self.is_verified && has_sides).then(Switching::new);
+        let has_sides = self.is_verified && !M::SWITCHES.is_empty();
+        let (mut none, mut sides) = (NothingHappens, has_sides.then(Switching::new));
+        let mut of_companion = None;
         let companion = match &mut beside {
             Some(march) => {
-                let mut hybrid = Hybrid::new(&mut nothing, &given, true, (start, end))?;
-                hybrid.is_empty = is_empty;
-                hybrid.switching = sides.as_mut();
-                let driver = Driver::new(march, integrator, hybrid);
-                let driver = driver.stabilised_by(stabilisation, self.breaks);
-                Some(Companion::new(driver, schedule, (start, &state)))
+                let mut hybrid = Hybrid::new(&mut none, &given, true, interval)?;
+                hybrid.is_empty = prepared.course.hybrid.is_empty;
+                let beside = Course::new(march.settings(), &integrator, hybrid, None);
+                let driver = Driver {
+                    march,
+                    list: &mut none,
+                    switching: sides.as_mut(),
+                    stabilisation: self.stabilisation(),
+                    breaks: self.breaks,
+                    course: of_companion.insert(beside),
+                };
+                Some(Companion::new(driver, schedule, *last_good))
             }
             None => None,
         };
-        let mut march = March::new(dynamics, *integrator);
-        let driver = Driver::new(&mut march, integrator, hybrid);
-        let mut driver = driver.stabilised_by(stabilisation, self.breaks);
-        driver.monitor = monitor;
-        let run = Run {
+        let mut march = March::new(prepared.equations, integrator);
+        let run = Observed {
             companion,
             schedule,
             log: Log::new(observe),
-            driver,
+            driver: Driver {
+                march: &mut march,
+                list,
+                switching: prepared.switching.as_mut(),
+                stabilisation: self.stabilisation(),
+                breaks: self.breaks,
+                course: &mut prepared.course,
+            },
         };
-        run.go((start, end), last_good, past)
-    }
-
-    /// Refuses times that are not in their order, and breaks that are no times.
-    fn check_times(&self, [start, reached, end]: [S; 3]) -> Result<(), Fault> {
-        check_interval(start, end)?;
-        check_interval(reached, end)?;
-        match self.breaks.iter().find(|instant| !instant.is_finite()) {
-            None => Ok(()),
-            Some(instant) => Err(Fault::BreakNotFinite {
-                instant: instant.to_f64(),
-            }),
-        }
+        run.go(interval, last_good, past)
     }
 
     /// What a companion integrates, by its own method, from the same parameters on.
     fn beside<'f>(
-        &'f self,
+        &self,
+        forces: &'f A,
         integrator: I,
         given: M::Parameters<S>,
     ) -> Result<Beside<'f, S, M, F, A, C, I>, Fault>
@@ -363,27 +323,8 @@ where
         I: Runs<S, M, F, C, A>,
     {
         let dynamics = Dynamics::of_parameters(given, self.formulation.companion())?;
-        let dynamics = dynamics.with_forces(Heeding::new(&self.forces, &given));
+        let dynamics = dynamics.with_forces(Heeding::new(forces, &given));
         Ok(March::new(dynamics.coordinates::<C>(), integrator))
-    }
-
-    /// The start of a run over an interval (s) from a state, assembled where that is asked.
-    fn start(
-        &self,
-        constants: &M::Constants<S>,
-        (start, end): (S, S),
-        mut state: M::State<S>,
-        described: impl Fn() -> M::State<S>,
-    ) -> Result<M::State<S>, Fault> {
-        M::rewrap(constants, &mut state);
-        if let Some(projection) = self.assemble {
-            assembled::<S, M>(&projection, constants, start, &mut state, &described())?;
-        }
-        if !self.accepts_any_start || C::IS_RELATIVE {
-            let interval = (start, end - start);
-            check_start::<S, M>(constants, interval, &state, C::IS_RELATIVE)?;
-        }
-        Ok(state)
     }
 }
 

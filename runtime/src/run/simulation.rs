@@ -20,6 +20,7 @@ use crate::run::post_step::PostStabilisation;
 /// controllers, checkpoints, trajectories. What is said of a simulation may be said in any order.
 pub struct Simulation<'a, P: Posed, I, H = NothingHappens> {
     pub(super) setup: Setup<'a, P, I>,
+    pub(super) forces: P::Forces,
     pub(super) happenings: H,
 }
 
@@ -27,12 +28,11 @@ pub struct Simulation<'a, P: Posed, I, H = NothingHappens> {
 pub(crate) type Solving<'a, S, M, F, I, A, C, H = NothingHappens> =
     Simulation<'a, Problem<S, M, F, A, C>, I, H>;
 
-/// All that is said of a simulation, but for what happens in it.
+/// All that is said of a simulation, but for forces and for what happens in it.
 pub(super) struct Setup<'a, P: Posed, I> {
     pub(super) mechanism: Source<'a, P::Number, P::Mechanism>,
     pub(super) formulation: P::Formulation,
     pub(super) integrator: I,
-    pub(super) forces: P::Forces,
     pub(super) initial: Option<<P::Mechanism as Mechanism>::State<P::Number>>,
     pub(super) assemble: Option<Projection<P::Number>>,
     pub(super) projection: Option<Projection<P::Number>>,
@@ -58,12 +58,11 @@ impl<S: Real, M: Mechanism> Clone for Source<'_, S, M> {
 
 impl<S: Real, M: Mechanism> Copy for Source<'_, S, M> {}
 
-impl<P: Posed<Formulation: Clone, Forces: Clone>, I: Clone> Clone for Setup<'_, P, I> {
+impl<P: Posed<Formulation: Clone>, I: Clone> Clone for Setup<'_, P, I> {
     fn clone(&self) -> Self {
         Self {
             formulation: self.formulation.clone(),
             integrator: self.integrator.clone(),
-            forces: self.forces.clone(),
             ..*self
         }
     }
@@ -78,6 +77,7 @@ where
     fn clone(&self) -> Self {
         Self {
             setup: self.setup.clone(),
+            forces: self.forces.clone(),
             happenings: self.happenings.clone(),
         }
     }
@@ -123,7 +123,6 @@ where
                 mechanism,
                 formulation,
                 integrator,
-                forces: NoForces,
                 initial: None,
                 assemble: None,
                 projection: None,
@@ -133,6 +132,7 @@ where
                 is_monitored: true,
                 is_verified: false,
             },
+            forces: NoForces,
             happenings: NothingHappens,
         }
     }
@@ -252,7 +252,6 @@ where
                 mechanism: setup.mechanism,
                 formulation: setup.formulation,
                 integrator: setup.integrator,
-                forces: forces(setup.forces),
                 initial: setup.initial,
                 assemble: setup.assemble,
                 projection: setup.projection,
@@ -262,6 +261,7 @@ where
                 is_monitored: setup.is_monitored,
                 is_verified: setup.is_verified,
             },
+            forces: forces(self.forces),
             happenings: self.happenings,
         }
     }

@@ -4,7 +4,8 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
-use crate::run::driver::{Driver, Taken};
+use crate::run::driver::Driver;
+use crate::run::leg::Taken;
 use crate::run::within::{Looks, look_within};
 
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
@@ -20,7 +21,11 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let advanced = match self.march.advance() {
             Ok(advanced) => advanced,
             Err(fault) => {
-                let longest = self.settings.fixed_step.map_or(left, |step| step.min(left));
+                let longest = self
+                    .course
+                    .settings
+                    .fixed_step
+                    .map_or(left, |step| step.min(left));
                 let is_shortened = self.tries_again(last_good.borrowed(), longest);
                 return if is_shortened { Ok(false) } else { Err(fault) };
             }
@@ -33,7 +38,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             self.convert(last_good);
             self.march.recount(last_good.borrowed())?;
         }
-        if self.settings.may_branch && self.stabilisation.is_none() {
+        if self.course.settings.may_branch && self.stabilisation.is_none() {
             self.march.look_for_branches();
         }
         let &mut At {
@@ -44,7 +49,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if self.looks_for_events() {
             taken.event = self.event_within((start, near), taken.end)?;
         }
-        if let Some(monitor) = &mut self.monitor {
+        if let Some(monitor) = &mut self.course.monitor {
             if taken.event.is_none() && monitor.judges() {
                 taken.better = self.march.better_end(near);
             }

@@ -80,6 +80,26 @@ where
     }
 }
 
+/// What is known of a method that moves equations of motion.
+pub(crate) fn settings<S, M, F, A, C, I>(integrator: &I) -> Settings<S>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    A: AppliedForces<S, M>,
+    C: Coordinates<M>,
+    I: Integrator<S, Dynamics<S, M, F, A, C>>,
+{
+    Settings {
+        fixed_step: integrator.fixed_step(),
+        absolute: integrator.tolerance().map(|of| of.absolute),
+        budget: integrator.budget().unwrap_or(usize::MAX),
+        interacts: A::INTERACTS,
+        may_defer: C::IS_RELATIVE && !A::PRESENT,
+        may_branch: Dynamics::<S, M, F, A, C>::CLOSES,
+    }
+}
+
 impl<S, M, F, A, C, I> Marching<S, M> for March<S, M, F, A, C, I>
 where
     S: Real,
@@ -98,14 +118,7 @@ where
     }
 
     fn settings(&self) -> Settings<S> {
-        Settings {
-            fixed_step: self.integrator.fixed_step(),
-            absolute: self.integrator.tolerance().map(|of| of.absolute),
-            budget: self.integrator.budget().unwrap_or(usize::MAX),
-            interacts: A::INTERACTS,
-            may_defer: C::IS_RELATIVE && !A::PRESENT,
-            may_branch: Dynamics::<S, M, F, A, C>::CLOSES,
-        }
+        settings::<S, M, F, A, C, I>(&self.integrator)
     }
 
     #[cfg(feature = "std")]

@@ -258,6 +258,14 @@ impl<S: Real> Watch<S> {
         self.reading = reading;
     }
 
+    /// Takes the reading in a state that was set between two steps: the way of the motion says on
+    /// which side one is that is at zero.
+    pub(crate) fn move_to(&mut self, reading: Reading<S>) {
+        self.root = None;
+        let size = self.zero.max(reading.round_off);
+        self.stand([reading.here, reading.ahead], size);
+    }
+
     /// Takes the reading after all handlers of an instant; `moved` where a handler has set the
     /// state.
     pub(crate) fn settle(&mut self, reading: Reading<S>, moved: bool) {

@@ -6,6 +6,7 @@ mod bounces;
 mod controllers;
 mod faults;
 mod handlers;
+mod led;
 mod order;
 mod rough;
 mod single_steps;

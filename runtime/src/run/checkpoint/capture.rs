@@ -10,20 +10,20 @@ use crate::error::{CheckpointFault, Fault};
 use crate::math::scalar::Real;
 use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
-use crate::run::driver::Begun;
+use crate::run::leg::Begun;
+use crate::run::observed::Observed;
 use crate::run::past::Progress;
-use crate::run::under_way::Run;
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
+impl<S: Real, M: Mechanism> Observed<'_, S, M> {
     /// Whether checkpoints are kept.
     pub(crate) fn keeps(&self) -> bool {
-        self.driver.hybrid.keeps.is_some()
+        self.driver.course.hybrid.keeps.is_some()
     }
 
     /// Whether a checkpoint is to be kept after this step.
     pub(crate) fn keeps_now(&self) -> bool {
-        let steps = self.driver.hybrid.keeps;
-        steps.is_some_and(|steps| self.driver.steps.is_multiple_of(steps))
+        let steps = self.driver.course.hybrid.keeps;
+        steps.is_some_and(|steps| self.driver.course.steps.is_multiple_of(steps))
     }
 
     /// Hands a checkpoint to those whose turn it is; at the end of the run to all. `None` between
@@ -37,10 +37,9 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         }: &StateAt<S, M>,
     ) -> Result<(), Fault> {
         let checkpoint = self.checkpoint(under_way, (time, state))?;
-        let (steps, mut stops) = (self.driver.steps, false);
-        let hybrid = &mut self.driver.hybrid;
-        let is_end = time >= hybrid.end;
-        hybrid.list.each(&mut |happening| {
+        let (steps, mut stops) = (self.driver.course.steps, false);
+        let is_end = time >= self.driver.course.hybrid.end;
+        self.driver.list.each(&mut |happening| {
             let is_due = |every: usize| is_end || steps.is_multiple_of(every);
             if happening.steps_to_keep().is_some_and(is_due) {
                 let flow = happening.keep(&checkpoint)?;
@@ -59,11 +58,14 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
         under_way: Option<&Begun<S>>,
         (time, state): (S, &M::State<S>),
     ) -> Result<Checkpoint<M, S>, Fault> {
-        let (given, taken) = (self.driver.hybrid.given, self.driver.hybrid.taken);
-        let mut warnings = self.driver.hybrid.former.clone();
+        let (given, taken) = (
+            self.driver.course.hybrid.given,
+            self.driver.course.hybrid.taken,
+        );
+        let mut warnings = self.driver.course.hybrid.former.clone();
         let equations = self.driver.march.equations();
         let (seen, iterations) = (equations.seen(), equations.iterations());
-        if let Some(mut monitor) = self.driver.monitor {
+        if let Some(mut monitor) = self.driver.course.monitor {
             equations.name_smallest_pivot(&mut monitor);
             monitor.end(equations.constants(), time, state);
             let found = monitor.warnings().into_iter();
@@ -90,17 +92,17 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             taken,
             present: *equations.parameters(),
             progress: Progress {
-                steps: self.driver.steps,
+                steps: self.driver.course.steps,
                 reports,
-                unseen: self.driver.unseen,
-                counts: self.driver.counts,
+                unseen: self.driver.course.unseen,
+                counts: self.driver.course.counts,
                 iterations,
                 worst_violation: self.log.worst_violation,
             },
             rates,
             segment,
             events,
-            monitor: self.driver.monitor.map(|monitor| (monitor, seen)),
+            monitor: self.driver.course.monitor.map(|monitor| (monitor, seen)),
             warnings,
         })
     }

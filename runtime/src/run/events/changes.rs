@@ -30,7 +30,7 @@ impl<S: Real> Changes<S> {
     }
 
     /// Hands over what it has counted.
-    pub(super) fn remember(&mut self, memory: &mut Memory<'_, S>) {
+    pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>) {
         memory.optional(&mut self.last);
         memory.count(&mut self.at_once);
     }

@@ -9,7 +9,7 @@ use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
 use crate::run::driver::Driver;
-use crate::run::events::list::{Happening, Hybrid};
+use crate::run::events::list::{Happening, Happenings};
 use crate::run::events::switching::{Switching, of, readings_of, sliding, undecided};
 use crate::run::sample::Sample;
 use crate::stepping::guard::{Guard, Guards, Visit};
@@ -26,8 +26,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Whether an event may be found within a step.
     #[inline]
     pub(crate) fn looks_for_events(&self) -> bool {
-        let always = self.settings.interacts || Switching::<S, M>::watches();
-        self.hybrid.watches || always
+        let always = self.course.settings.interacts || Switching::<S, M>::watches();
+        self.course.hybrid.watches || always
     }
 
     /// The first event within the last step, which began at a time where the bodies stood near by.
@@ -38,7 +38,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         (start, near): (S, &M::State<S>),
         end: S,
     ) -> Result<Option<StateAt<S, M>>, Fault> {
-        let hybrid = &mut self.hybrid;
+        let hybrid = &mut self.course.hybrid;
         hybrid.longest = hybrid.longest.max(end - start);
         let is_fresh = hybrid.is_fresh;
         let seen = self.march.equations().seen();
@@ -50,7 +50,9 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
                 None => S::constant(UNRESOLVED) * hybrid.longest,
                 Some(_) => S::zero(),
             },
-            hybrid,
+            longest: hybrid.longest,
+            list: self.list,
+            switching: self.switching.as_deref_mut(),
         };
         let mut step = LastStep {
             march: self.march,
@@ -66,27 +68,33 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             let modes = self.march.equations().interactions().iter();
             let mut modes = modes.map(|tracked| tracked.status.get().is_found);
             hybrid.is_found = modes.any(|is_found| is_found);
-            hybrid.list.each(&mut |happening| {
-                hybrid.is_found |= happening.watch().is_some_and(|watch| watch.is_found());
+            hybrid.event = None;
+            self.list.each(&mut |happening| {
+                let found = happening.watch().filter(|watch| watch.is_found());
+                hybrid.event = hybrid.event.or(found.map(|watch| watch.name()));
                 Ok(())
             })?;
+            hybrid.is_found |= hybrid.event.is_some();
         }
         Ok(found)
     }
 }
 
 /// The guards of a run.
-struct OfRun<'g, 'h, S: Real, M: Mechanism> {
+struct OfRun<'g, S: Real, M: Mechanism> {
     modes: Modes<S>,
-    hybrid: &'g mut Hybrid<'h, S, M>,
+    list: &'g mut dyn Happenings<S, M>,
+    switching: Option<&'g mut Switching<S, M>>,
+    /// The longest step so far (s).
+    longest: S,
     unresolved: S,
 }
 
-impl<S: Real, M: Mechanism> Guards<S, M> for OfRun<'_, '_, S, M> {
+impl<S: Real, M: Mechanism> Guards<S, M> for OfRun<'_, S, M> {
     fn each(&mut self, visit: &mut Visit<'_, S, M>) -> Result<(), Fault> {
         self.modes.each(visit)?;
-        let longest = self.hybrid.longest;
-        self.hybrid.list.each(&mut |happening| {
+        let longest = self.longest;
+        self.list.each(&mut |happening| {
             let Some(&mut watch) = happening.watch() else {
                 return Ok(());
             };
@@ -96,7 +104,7 @@ impl<S: Real, M: Mechanism> Guards<S, M> for OfRun<'_, '_, S, M> {
                 longest,
             })
         })?;
-        let Some(switching) = &mut self.hybrid.switching else {
+        let Some(switching) = &mut self.switching else {
             return Ok(());
         };
         let mut readings = None;

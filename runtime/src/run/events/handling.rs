@@ -17,6 +17,7 @@ use crate::run::events::list::{Happening, Hybrid};
 use crate::run::events::sizes::{ahead, rate, round_off, shaken};
 use crate::run::sample::Sample;
 use crate::state::vector::{Array, StateParts, Vector as _};
+use crate::stepping::marching::Marching;
 use crate::stepping::watch::{Reading, Watch};
 
 /// What handlers and controllers have done at an instant.
@@ -29,6 +30,26 @@ pub(crate) struct Done {
     /// A handler or a controller stops the run.
     pub(crate) stops: bool,
 }
+
+impl Done {
+    const fn nothing() -> Self {
+        Self {
+            moved: false,
+            changed: false,
+            stops: false,
+        }
+    }
+
+    const fn and(&mut self, other: Self) {
+        self.moved |= other.moved;
+        self.changed |= other.changed;
+        self.stops |= other.stops;
+    }
+}
+
+/// What is called, with an [`Event`].
+pub(crate) type Handler<'h, S, M> =
+    dyn FnMut(&mut Event<'_, S, M>) -> Result<ControlFlow<()>, Fault> + 'h;
 
 /// What is called at an instant.
 #[derive(Clone, Copy, PartialEq)]
@@ -48,12 +69,16 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             bodies: state,
         }: &mut StateAt<S, M>,
     ) -> Result<bool, Fault> {
-        if self.hybrid.is_empty {
+        if self.course.hybrid.is_empty {
             return Ok(false);
         }
         self.begin_interactions()?;
         self.stand(*time, state, true)?;
-        let before = self.monitor.is_some().then(|| self.energies(*time, state));
+        let before = self
+            .course
+            .monitor
+            .is_some()
+            .then(|| self.energies(*time, state));
         let done = self.call(Called::Controllers, *time, state)?;
         self.stand(*time, state, true)?;
         if self.switch(*time, state, true)? {
@@ -73,10 +98,14 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             bodies: state,
         }: &mut StateAt<S, M>,
     ) -> Result<bool, Fault> {
-        if self.hybrid.is_empty || *time >= self.hybrid.end {
+        if self.course.hybrid.is_empty || *time >= self.course.hybrid.end {
             return Ok(false);
         }
-        let before = self.monitor.is_some().then(|| self.energies(*time, state));
+        let before = self
+            .course
+            .monitor
+            .is_some()
+            .then(|| self.energies(*time, state));
         let done = self.call(Called::Controllers, *time, state)?;
         if done.changed {
             self.switch(*time, state, true)?;
@@ -97,13 +126,17 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         }: &mut StateAt<S, M>,
     ) -> Result<Done, Fault> {
         let time = *time;
-        let before = self.monitor.is_some().then(|| self.energies(time, state));
+        let before = self
+            .course
+            .monitor
+            .is_some()
+            .then(|| self.energies(time, state));
         if is_found {
             self.read_all(time, state, |watch, reading| {
                 watch.correct(reading.here, reading.round_off);
             })?;
         }
-        self.hybrid.is_switched = false;
+        self.course.hybrid.is_switched = false;
         let mut done = Done {
             moved: self.switch(time, state, false)?,
             changed: false,
@@ -118,13 +151,13 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             done.moved |= handled.moved;
             done.stops = handled.stops;
         }
-        if !done.stops && time < self.hybrid.end {
+        if !done.stops && time < self.course.hybrid.end {
             let controlled = self.call(Called::Controllers, time, state)?;
             self.follow(&controlled, time, state)?;
             done.stops = controlled.stops;
         }
         if is_found {
-            self.hybrid.is_fresh = true;
+            self.course.hybrid.is_fresh = true;
             self.read_all(time, state, |watch, reading| {
                 watch.settle(reading, done.moved);
             })?;
@@ -147,7 +180,9 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Tells the monitor what energy (J) an instant has put in, if it was known before.
     fn account(&mut self, before: Option<S>, time: S, state: &M::State<S>) {
         let after = before.map(|_| self.energies(time, state));
-        if let (Some(monitor), Some(before), Some(after)) = (&mut self.monitor, before, after) {
+        if let (Some(monitor), Some(before), Some(after)) =
+            (&mut self.course.monitor, before, after)
+        {
             monitor.jump(after - before);
         }
     }
@@ -161,15 +196,11 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Calls the handlers of all events that were found, in the order in which these pass their
     /// zeros, and of those that do at once in the order in which they were given.
     fn call_handlers(&mut self, time: S, state: &mut M::State<S>) -> Result<Done, Fault> {
-        let mut done = Done {
-            moved: false,
-            changed: false,
-            stops: false,
-        };
+        let mut done = Done::nothing();
         let mut handled: Option<S> = None;
         loop {
             let mut next: Option<S> = None;
-            self.hybrid.list.each(&mut |happening| {
+            self.list.each(&mut |happening| {
                 let root = happening.watch().and_then(|watch| watch.root());
                 let root = root.filter(|&root| handled.is_none_or(|handled| root > handled));
                 next = match next.zip(root) {
@@ -182,30 +213,16 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
                 return Ok(done);
             };
             let now = self.call(Called::Handlers(root), time, state)?;
-            done.moved |= now.moved;
-            done.changed |= now.changed;
-            done.stops |= now.stops;
+            done.and(now);
             handled = Some(root);
         }
     }
 
     /// Calls what is due at a time, one after the other: each sees what the former have done.
     fn call(&mut self, called: Called<S>, time: S, state: &mut M::State<S>) -> Result<Done, Fault> {
-        let mut done = Done {
-            moved: false,
-            changed: false,
-            stops: false,
-        };
-        let Hybrid {
-            list,
-            inputs,
-            taken,
-            accepts_any_state,
-            end,
-            ..
-        } = &mut self.hybrid;
-        let march = &mut *self.march;
-        list.each(&mut |happening: &mut dyn Happening<S, M>| {
+        let mut done = Done::nothing();
+        let (march, hybrid) = (&mut *self.march, &mut self.course.hybrid);
+        self.list.each(&mut |happening: &mut dyn Happening<S, M>| {
             let name = match called {
                 Called::Handlers(root) => happening
                     .watch()
@@ -219,40 +236,68 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             let Some(name) = name else {
                 return Ok(());
             };
-            let equations = march.equations();
-            let view = View::new(equations.constants(), time, state);
-            let sample = Sample::new(view, equations);
-            let mut event = Event::new(sample, name, equations.parameters(), *inputs);
-            let flow = happening.act(&mut event)?;
-            let (next, held, parameters) = (event.state, event.inputs, event.parameters);
-            if let Some(parameters) = parameters {
-                let equations = march.equations_mut();
-                equations.take_parameters(parameters)?;
-                equations.renew_limits()?;
-                *taken = Some(parameters);
-            }
-            if held != *inputs || parameters.is_some() {
-                march.equations_mut().set_inputs(&held)?;
-                *inputs = held;
-                done.changed = true;
-            }
-            if next != *state {
-                let duration = *end - time;
-                let checked = checked(
-                    march.equations(),
-                    (time, duration),
-                    next,
-                    *accepts_any_state,
-                );
-                *state = checked.map_err(|fault| after_handler(name, fault))?;
-                done.moved = true;
-            }
-            done.stops |= matches!(flow, ControlFlow::Break(()));
+            let handler = &mut |event: &mut Event<'_, S, M>| happening.act(event);
+            done.and(invoke(march, hybrid, (name, handler), (time, state))?);
             Ok(())
         })?;
+        Ok(self.with_asked(done))
+    }
+
+    /// What was done, if interactions were asked for something, too.
+    fn with_asked(&self, mut done: Done) -> Done {
         let asks = |tracked: &Tracked<S, M>| tracked.status.get().is_asked;
         done.changed |= done.moved || self.march.equations().interactions().iter().any(asks);
-        Ok(done)
+        done
+    }
+
+    /// Calls a handler at an instant at which no event was found. Whether it stops the run.
+    pub(crate) fn change(
+        &mut self,
+        handler: &mut Handler<'_, S, M>,
+        At {
+            time,
+            bodies: state,
+        }: &mut StateAt<S, M>,
+    ) -> Result<bool, Fault> {
+        let time = *time;
+        let before = self
+            .course
+            .monitor
+            .is_some()
+            .then(|| self.energies(time, state));
+        let hybrid = &mut self.course.hybrid;
+        let done = invoke(self.march, hybrid, ("", handler), (time, state))?;
+        let done = self.with_asked(done);
+        self.follow(&done, time, state)?;
+        self.course.hybrid.is_fresh = true;
+        self.read_all(time, state, |watch, reading| {
+            if done.moved {
+                watch.move_to(reading);
+            } else {
+                watch.settle(reading, false);
+            }
+        })?;
+        self.account(before, time, state);
+        Ok(done.stops)
+    }
+
+    /// Forgets what was found in a step that is not gone to its end.
+    pub(crate) fn forget_found(
+        &mut self,
+        At {
+            time,
+            bodies: state,
+        }: &StateAt<S, M>,
+    ) -> Result<(), Fault> {
+        self.course.hybrid.is_found = false;
+        for tracked in self.march.equations().interactions() {
+            tracked.update(|status| status.is_found = false);
+        }
+        if let Some(switching) = &mut self.switching {
+            switching.is_found = false;
+        }
+        self.stand(*time, state, true)?;
+        self.read_all(*time, state, |watch, reading| watch.move_to(reading))
     }
 
     fn read_all(
@@ -266,7 +311,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let constants = equations.constants();
         let shaken = |way| shaken::<S, M>(constants, time, state, way);
         let beside = [shaken(1.0), shaken(-1.0)];
-        self.hybrid.list.each(&mut |happening| {
+        self.list.each(&mut |happening| {
             if happening.watch().is_none() {
                 return Ok(());
             }
@@ -289,9 +334,9 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
 
     /// A little ahead on the way of the motion, as far as velocities and rates of states lead.
     fn ahead(&self, time: S, state: &M::State<S>) -> StateAt<S, M> {
-        let mut step = self.hybrid.end - time;
-        if self.hybrid.longest > S::zero() {
-            step = step.min(self.hybrid.longest);
+        let mut step = self.course.hybrid.end - time;
+        if self.course.hybrid.longest > S::zero() {
+            step = step.min(self.course.hybrid.longest);
         }
         let constants = self.march.equations().constants();
         let mut rates = M::coordinate_rates(constants, state);
@@ -306,6 +351,41 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             bodies: state.plus([(step, &rates)]),
         }
     }
+}
+
+/// Calls a handler of an event by its name, and takes what it has changed.
+fn invoke<S: Real, M: Mechanism>(
+    march: &mut (dyn Marching<S, M> + '_),
+    hybrid: &mut Hybrid<S, M>,
+    (name, handler): (&'static str, &mut Handler<'_, S, M>),
+    (time, state): (S, &mut M::State<S>),
+) -> Result<Done, Fault> {
+    let mut done = Done::nothing();
+    let equations = march.equations();
+    let view = View::new(equations.constants(), time, state);
+    let sample = Sample::new(view, equations);
+    let mut event = Event::new(sample, name, equations.parameters(), hybrid.inputs);
+    let flow = handler(&mut event)?;
+    let (next, held, parameters) = (event.state, event.inputs, event.parameters);
+    if let Some(parameters) = parameters {
+        let equations = march.equations_mut();
+        equations.take_parameters(parameters)?;
+        equations.renew_limits()?;
+        hybrid.taken = Some(parameters);
+    }
+    if held != hybrid.inputs || parameters.is_some() {
+        march.equations_mut().set_inputs(&held)?;
+        hybrid.inputs = held;
+        done.changed = true;
+    }
+    if next != *state {
+        let at = (time, hybrid.end - time);
+        let checked = checked(march.equations(), at, next, hybrid.accepts_any_state);
+        *state = checked.map_err(|fault| after_handler(name, fault))?;
+        done.moved = true;
+    }
+    done.stops = matches!(flow, ControlFlow::Break(()));
+    Ok(done)
 }
 
 /// A state that a handler has set, as a start of a run over a duration (s) is checked.

@@ -4,21 +4,18 @@ use core::ops::ControlFlow;
 
 use crate::error::Fault;
 use crate::error::setting::positive;
-use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::status::Tracked;
 #[cfg(feature = "std")]
 use crate::run::checkpoint::Checkpoint;
 use crate::run::events::changes::Changes;
 use crate::run::events::context::Event;
-use crate::run::events::switching::Switching;
 use crate::run::output::IntoFlow;
 use crate::run::past::Past;
 use crate::run::sample::Sample;
 #[cfg(feature = "std")]
 use crate::run::trajectory::Trajectory;
-use crate::stepping::watch::{Period, Watch, is_same};
+use crate::stepping::watch::{Period, Watch};
 
 /// Something that happens in a run.
 #[doc(hidden)]
@@ -160,12 +157,11 @@ where
 }
 
 /// What happens in a run under way.
-pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
+pub(crate) struct Hybrid<S: Real, M: Mechanism> {
     /// Whether nothing can happen.
     pub(crate) is_empty: bool,
-    pub(crate) list: &'h mut (dyn Happenings<S, M> + 'h),
     /// Inputs that are held.
-    pub(super) inputs: M::Inputs<S>,
+    pub(crate) inputs: M::Inputs<S>,
     /// Parameters and inputs at the start of the run, and those that a handler has set last.
     #[cfg_attr(
         not(feature = "std"),
@@ -189,29 +185,29 @@ pub(crate) struct Hybrid<'h, S: Real, M: Mechanism> {
     #[cfg(feature = "std")]
     pub(crate) former: std::vec::Vec<std::string::String>,
     /// Whether states that handlers set may violate the constraints.
-    pub(super) accepts_any_state: bool,
+    pub(crate) accepts_any_state: bool,
     /// The end of the run (s).
     pub(crate) end: S,
     /// The longest step so far (s).
-    pub(super) longest: S,
+    pub(crate) longest: S,
     /// Whether there are conditions.
-    pub(super) watches: bool,
+    pub(crate) watches: bool,
     /// Whether a segment begins where readings may be at zero.
-    pub(super) is_fresh: bool,
-    /// Whether the last step ended at an event.
+    pub(crate) is_fresh: bool,
+    /// Whether the last step ended at an event or at the end of a mode.
     pub(crate) is_found: bool,
+    /// The first event in the list of those that were found.
+    pub(crate) event: Option<&'static str>,
     /// Whether modes of interactions have changed at this instant.
     pub(crate) is_switched: bool,
     /// How often modes of interactions changed at once.
-    pub(super) changes: Changes<S>,
-    /// The laws that switch, where there are any.
-    pub(crate) switching: Option<&'h mut Switching<S, M>>,
+    pub(crate) changes: Changes<S>,
 }
 
-impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
+impl<S: Real, M: Mechanism> Hybrid<S, M> {
     /// Begins a run over an interval (s) with parameters and inputs.
     pub(crate) fn new(
-        list: &'h mut (dyn Happenings<S, M> + 'h),
+        list: &mut dyn Happenings<S, M>,
         given: &M::Parameters<S>,
         accepts_any_state: bool,
         (start, end): (S, S),
@@ -240,7 +236,6 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
         })?;
         Ok(Self {
             is_empty: false,
-            list,
             inputs: M::inputs_of(given),
             given: *given,
             taken: None,
@@ -254,10 +249,15 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             watches,
             is_fresh: true,
             is_found: false,
+            event: None,
             is_switched: false,
             changes: Changes::none(),
-            switching: None,
         })
+    }
+
+    /// Whether somebody keeps checkpoints or records the motion.
+    pub(crate) fn is_observed(&self) -> bool {
+        self.keeps.is_some() || self.records
     }
 
     /// The same of a run that goes on.
@@ -269,47 +269,6 @@ impl<'h, S: Real, M: Mechanism> Hybrid<'h, S, M> {
             self.former = past.warnings.to_vec();
         }
         self
-    }
-
-    /// Hands over what events, controllers, interactions and laws that switch remember.
-    pub(crate) fn remember(&mut self, list: &[Tracked<S, M>], memory: &mut Memory<'_, S>) {
-        if self.watches || self.switching.is_some() || !list.is_empty() {
-            memory.number(&mut self.longest);
-            memory.flag(&mut self.is_fresh);
-        }
-        if !list.is_empty() {
-            self.changes.remember(memory);
-        }
-        for tracked in list {
-            tracked.remember(memory);
-        }
-        if let Some(switching) = &mut self.switching {
-            switching.remember(memory);
-        }
-        let _ = self.list.each(&mut |happening| {
-            if let Some(watch) = happening.watch() {
-                watch.remember(memory);
-            }
-            if let Some(period) = happening.period() {
-                period.remember(memory);
-            }
-            Ok(())
-        });
-    }
-
-    /// The next instant (s) of a controller up to a time.
-    pub(crate) fn next_instant(&mut self, until: S) -> S {
-        let mut next = until;
-        let _ = self.list.each(&mut |happening| {
-            if let Some(period) = happening.period()
-                && period.next() < next
-                && !is_same(period.next(), until)
-            {
-                next = period.next();
-            }
-            Ok(())
-        });
-        next
     }
 }
 

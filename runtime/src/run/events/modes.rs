@@ -25,7 +25,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         bodies: &mut M::State<S>,
         moved: bool,
     ) -> Result<bool, Fault> {
-        if self.settings.interacts {
+        if self.course.settings.interacts {
             self.switch_modes(time, bodies, moved)
         } else {
             Ok(false)
@@ -39,7 +39,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         bodies: &mut M::State<S>,
         moved: bool,
     ) -> Result<bool, Fault> {
-        let (equations, hybrid) = (self.march.equations(), &mut self.hybrid);
+        let (equations, hybrid) = (self.march.equations(), &mut self.course.hybrid);
         let list = equations.interactions();
         hybrid.changes.count(time, hybrid.longest, list)?;
         *bodies = equations.strike(time, bodies, moved)?;

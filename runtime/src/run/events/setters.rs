@@ -43,6 +43,7 @@ impl<'a, P: Posed, I, H> Simulation<'a, P, I, H> {
     fn and<X>(self, happening: X) -> With<'a, P, I, H, X> {
         Simulation {
             setup: self.setup,
+            forces: self.forces,
             happenings: (self.happenings, happening),
         }
     }

@@ -33,8 +33,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Whether the integration begins anew because a law has switched. Turns the sides of those
     /// whose zeros were found, in a state as it was corrected, and takes those of the others.
     pub(crate) fn turn(&mut self, time: S, state: &M::State<S>) -> Result<bool, Fault> {
-        let hybrid = &mut self.hybrid;
-        let Some(switching) = &mut hybrid.switching else {
+        let hybrid = &mut self.course.hybrid;
+        let Some(switching) = &mut self.switching else {
             return Ok(false);
         };
         let is_found = core::mem::take(&mut switching.is_found);
@@ -80,7 +80,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         state: &M::State<S>,
         is_moved: bool,
     ) -> Result<(), Fault> {
-        if self.hybrid.switching.is_none() {
+        if self.switching.is_none() {
             return Ok(());
         }
         let mut is_new = is_moved;
@@ -88,7 +88,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         for _ in 0..M::SWITCHES.len() + ROUNDS {
             self.hold();
             if !self.stand_once(time, state, is_new)? {
-                self.hybrid.is_fresh = true;
+                self.course.hybrid.is_fresh = true;
                 self.hold();
                 return Ok(());
             }
@@ -101,13 +101,13 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
 
     /// Whether a side was changed.
     fn stand_once(&mut self, time: S, state: &M::State<S>, is_moved: bool) -> Result<bool, Fault> {
-        let bounds = [self.hybrid.end - time, self.hybrid.longest];
-        let end = self.hybrid.end.to_f64();
+        let bounds = [self.course.hybrid.end - time, self.course.hybrid.longest];
+        let end = self.course.hybrid.end.to_f64();
         let mut is_changed = false;
         // Until a side is changed, which others may hold.
         let (mut known_instants, mut known_readings) = (None, None);
         for switch in M::SWITCHES {
-            let Some(switching) = &self.hybrid.switching else {
+            let Some(switching) = &self.switching else {
                 return Ok(false);
             };
             let mut watch = switching.watch(switch);
@@ -155,7 +155,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
                 self.march.equations_mut().hold(switch, watch.side());
                 (known_instants, known_readings) = (None, None);
             }
-            if let Some(switching) = &mut self.hybrid.switching {
+            if let Some(switching) = &mut self.switching {
                 switching.keep(switch, &watch);
             }
         }
@@ -257,7 +257,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
 
     /// The sides as they are kept.
     pub(crate) fn hold(&mut self) {
-        if let Some(switching) = &self.hybrid.switching {
+        if let Some(switching) = &self.switching {
             for switch in M::SWITCHES {
                 self.march
                     .equations_mut()
@@ -272,7 +272,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if !M::SWITCHES.iter().any(|switch| switch.is_of_time) {
             return Ok(until);
         }
-        let Some(switching) = &mut self.hybrid.switching else {
+        let Some(switching) = &mut self.switching else {
             return Ok(until);
         };
         'anew: for _ in 0..M::SWITCHES.len() + ROUNDS {

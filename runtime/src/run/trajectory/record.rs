@@ -8,7 +8,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::turns;
 use crate::run::events::list::Happening;
-use crate::run::under_way::Run;
+use crate::run::observed::Observed;
 use crate::state::vector::{MovingState as _, Vector as _};
 
 /// By how much elements may differ from the motion, in units of round-off, relative to those of
@@ -31,7 +31,7 @@ impl<S: Real, M: Mechanism> Happening<S, M> for Recorded<'_, M, S> {
 /// The points of a step, of which some are known.
 type Points<X> = [Option<X>; FINEST + 1];
 
-impl<S: Real, M: Mechanism> Run<'_, S, M> {
+impl<S: Real, M: Mechanism> Observed<'_, S, M> {
     /// Begins what is recorded at a time (s).
     pub(crate) fn begin_records(&mut self, time: S, is_new: bool) {
         self.each_record(&mut |trajectory| {
@@ -52,7 +52,7 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
             bodies: ref from,
         }: &StateAt<S, M>,
     ) -> Result<bool, Fault> {
-        if !self.driver.hybrid.records {
+        if !self.driver.course.hybrid.records {
             return Ok(false);
         }
         if end <= start {
@@ -116,8 +116,8 @@ impl<S: Real, M: Mechanism> Run<'_, S, M> {
     }
 
     fn each_record(&mut self, visit: &mut dyn FnMut(&mut Trajectory<M, S>)) {
-        if self.driver.hybrid.records {
-            let _ = self.driver.hybrid.list.each(&mut |happening| {
+        if self.driver.course.hybrid.records {
+            let _ = self.driver.list.each(&mut |happening| {
                 happening.record(visit);
                 Ok(())
             });
