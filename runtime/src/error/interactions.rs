@@ -47,7 +47,7 @@ pub(super) fn say(fault: &Fault, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             interactions,
         } => write!(
             f,
-            "the handle is of interaction {number} of another list: this run was given {interactions}, and they count from 0"
+            "the handle is of interaction {number} of another list than the run was given, which has {interactions}: they count from 0"
         ),
         Fault::NoSuchLimits { joint } => write!(
             f,

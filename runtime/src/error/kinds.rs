@@ -128,7 +128,7 @@ pub enum Fault {
         setting: &'static str,
     },
     /// The handle of an [`Interaction`](crate::run::Interaction) of another list: the run's own has
-    /// none at this place.
+    /// none at this place, or another one.
     NoSuchInteraction {
         /// The place, from 0.
         number: usize,

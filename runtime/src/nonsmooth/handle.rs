@@ -45,10 +45,26 @@ pub struct InteractionHandle<M> {
 /// Which interaction of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Which {
-    /// The one at a place of the list that the run was given.
-    Listed(usize),
+    /// The one at a place of the list that the run was given, which is of this kind.
+    Listed(usize, Kind),
     /// The limits of a quantity, wherever they come from.
     Limits(JointReading),
+}
+
+/// What an interaction is, without its numbers: it tells most lists apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Kind {
+    is_limits: bool,
+    quantity: Quantity<()>,
+}
+
+impl Kind {
+    fn of<S, M>(interaction: &Interaction<S, M>) -> Self {
+        Self {
+            is_limits: matches!(interaction.law, Law::Limits(_)),
+            quantity: interaction.quantity.without_numbers(),
+        }
+    }
 }
 
 copied! {
@@ -63,7 +79,7 @@ impl<M> PartialEq for InteractionHandle<M> {
 
 impl<M> Eq for InteractionHandle<M> {}
 
-/// The place in the list, or the quantity.
+/// The place in the list with what is there, or the quantity.
 impl<M> Debug for InteractionHandle<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.which.fmt(f)
@@ -109,8 +125,12 @@ impl<S, M> Interaction<S, M> {
     /// # Ok::<(), RunError<StateOf<Rod>, Fault>>(())
     /// ```
     #[must_use]
-    pub fn handles<const K: usize>(_list: &[Self; K]) -> [InteractionHandle<M>; K] {
-        core::array::from_fn(|place| InteractionHandle::of(Which::Listed(place)))
+    pub fn handles<const K: usize>(list: &[Self; K]) -> [InteractionHandle<M>; K] {
+        let mut places = 0..K;
+        list.each_ref().map(|interaction| {
+            let place = places.next().unwrap_or(K);
+            InteractionHandle::of(Which::Listed(place, Kind::of(interaction)))
+        })
     }
 }
 
@@ -130,10 +150,12 @@ pub(crate) fn named<S: Real, M: Mechanism>(
     handle: InteractionHandle<M>,
 ) -> Result<&Tracked<S, M>, Fault> {
     match handle.which {
-        Which::Listed(number) => {
+        Which::Listed(number, kind) => {
             let mut given = list.iter().filter(|of| !of.interaction.is_described);
             let interactions = given.clone().count();
-            given.nth(number).ok_or(Fault::NoSuchInteraction {
+            let named = given.nth(number);
+            let named = named.filter(|tracked| Kind::of(&tracked.interaction) == kind);
+            named.ok_or(Fault::NoSuchInteraction {
                 number,
                 interactions,
             })

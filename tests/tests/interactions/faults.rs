@@ -103,9 +103,17 @@ fn handles_of_what_is_not_there_are_refused() {
         joint: "rail",
         setting: "engage",
     };
-    for handle in [first, rail.limits()] {
+    let [listed] = Interaction::handles(&[stop]);
+    for handle in [listed, rail.limits()] {
         assert_eq!(engaged(stop, handle), Err(misplaced));
     }
+    // At the place of the handle is another interaction.
+    let other = Fault::NoSuchInteraction {
+        number: 0,
+        interactions: 1,
+    };
+    assert_eq!(engaged(stop, first), Err(other));
+    assert_eq!(engaged(brake, listed), Err(other));
     let mut stepper = ball
         .stepper(StandardLagrange, Rk4)
         .expect("sound parameters")
