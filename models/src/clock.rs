@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use holonom::Scalar;
 use holonom::prelude::*;
-use holonom::run::Event;
+use holonom::run::{Event, InteractionHandle};
 
 /// A clock whose pendulum loses energy by dry friction. It gets it back once a period, when the
 /// wheel goes on by a tooth. At the start it passes the vertical at 0.8 rad/s. Gravity is along -z.
@@ -88,6 +88,12 @@ impl Clock {
         ]
     }
 
+    /// The handles of [`Clock::interactions`].
+    #[must_use]
+    pub fn interaction_handles() -> [InteractionHandle<Self>; 2] {
+        Interaction::handles(&Self::interactions())
+    }
+
     /// What a tooth does when the pendulum passes the vertical: the energy is added, and the wheel
     /// is let go.
     ///
@@ -99,7 +105,8 @@ impl Clock {
         let gained = 1.0 + Self::GAIN / event.kinetic_energy();
         let rate = event.angle_rate(pivot) * Scalar::sqrt(gained);
         event.set_angle_rate(pivot, rate)?;
-        event.release(1)
+        let [_, dog] = Self::interaction_handles();
+        event.release(dog)
     }
 
     /// Zero where the wheel, at an angle (rad), is at a tooth.
@@ -113,6 +120,7 @@ impl Clock {
     /// # Errors
     /// Those of [`Event::engage`].
     pub fn lock(event: &mut Event<'_, f64, Self>) -> Result<(), Fault> {
-        event.engage(1)
+        let [_, dog] = Self::interaction_handles();
+        event.engage(dog)
     }
 }

@@ -40,14 +40,18 @@ pub(super) fn say(fault: &Fault, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         Fault::MisplacedSetting { joint, setting } => write!(
             f,
             "the interaction on `{joint}` has no `{setting}`: `restitution` and `rest_below` are of limits, `radius` of a point and a plane, and of a hinge with friction by load, `guide` \
-             of friction by load, `stiction`, `stribeck` and `released` of friction, brakes and clutches"
+             of friction by load, `stiction`, `stribeck`, `released`, `engage` and `release` of friction, brakes and clutches"
         ),
         Fault::NoSuchInteraction {
             number,
             interactions,
         } => write!(
             f,
-            "there is no interaction {number}: the run has {interactions}, and they count from 0"
+            "the handle is of interaction {number} of another list than the run was given, which has {interactions}: they count from 0"
+        ),
+        Fault::NoSuchLimits { joint } => write!(
+            f,
+            "the run has no limits of `{joint}`: neither its description nor its interactions do, or `.without_limits()` leaves them out"
         ),
         Fault::BeyondLimit {
             joint,

@@ -127,12 +127,19 @@ pub enum Fault {
         /// Which one.
         setting: &'static str,
     },
-    /// There is no [`Interaction`](crate::run::Interaction) with this number in the run.
+    /// The handle of an [`Interaction`](crate::run::Interaction) of another list: the run's own has
+    /// none at this place, or another one.
     NoSuchInteraction {
-        /// The number, from 0.
+        /// The place, from 0.
         number: usize,
-        /// How many there are.
+        /// How many the run was given.
         interactions: usize,
+    },
+    /// The run has no limits of a joint, see
+    /// [`JointQuantity::limits`](crate::run::JointQuantity::limits).
+    NoSuchLimits {
+        /// The field of the joint.
+        joint: &'static str,
     },
     /// An angle or a displacement was put beyond its limit.
     BeyondLimit {

@@ -164,22 +164,22 @@ impl fmt::Display for Fault {
             ),
             Self::Checkpoint(fault) => fault.fmt(f),
             Self::OutsideTrajectory { time, start, end } => {
-                let time = Given(time);
+                let [time, from, to] = [time, start, end].map(Given);
                 if start.is_nan() {
                     return write!(
                         f,
                         "the trajectory knows no motion, and so not that at {time} s; record one by `trajectory(..)` of a run"
                     );
                 }
-                let [start, end] = [start, end].map(Given);
                 write!(
                     f,
-                    "the trajectory goes from {start} s to {end} s, and was asked for {time} s"
+                    "the trajectory goes from {from} s to {to} s, and was asked for {time} s"
                 )
             }
             Self::InteractionSetting { .. }
             | Self::MisplacedSetting { .. }
             | Self::NoSuchInteraction { .. }
+            | Self::NoSuchLimits { .. }
             | Self::BeyondLimit { .. }
             | Self::DrivenAgainst { .. }
             | Self::LimitsLeftOut { .. }

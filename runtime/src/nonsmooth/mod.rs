@@ -10,7 +10,8 @@
 //! `impulse.rs` is the impact of an event of the user's own. Points and planes are in `place.rs`.
 //!
 //! Within a step the modes are fixed (`efforts.rs`). Between steps `switch.rs` finds impulses, then
-//! `choice.rs` modes. `interaction.rs` is what a user writes, `status.rs` what a run knows of it.
+//! `choice.rs` modes. `interaction.rs` is what a user writes, `handle.rs` what it is
+//! called by, `status.rs` what a run knows of it.
 //!
 //! `described.rs` has the limits of a description. `remembered.rs` hands their statuses to
 //! checkpoints.
@@ -28,6 +29,7 @@ mod choice;
 pub(crate) mod columns;
 pub(crate) mod described;
 mod efforts;
+pub(crate) mod handle;
 pub(crate) mod impulse;
 pub(crate) mod interaction;
 pub(crate) mod loads;

@@ -65,11 +65,22 @@ impl<S: Real, M: Mechanism> Plane<S, M> {
 }
 
 /// The plane in principal axes of its body; global on the ground. The normal has length 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PlaceOfPlane<S> {
     pub(crate) body: Option<usize>,
     point: [S; 3],
     normal: [S; 3],
+}
+
+impl<S> PlaceOfPlane<S> {
+    /// What it is fixed on.
+    pub(crate) fn without_numbers(&self) -> PlaceOfPlane<()> {
+        PlaceOfPlane {
+            body: self.body,
+            point: [(); 3],
+            normal: [(); 3],
+        }
+    }
 }
 
 impl<S: Scalar> PlaceOfPlane<S> {

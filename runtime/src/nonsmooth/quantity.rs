@@ -75,7 +75,7 @@ impl JointReading {
 }
 
 /// Along what an effort acts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Quantity<S> {
     /// An angle or a displacement.
     Joint(JointReading),
@@ -85,6 +85,18 @@ pub(crate) enum Quantity<S> {
     Gap(At, PlaceOfPlane<S>),
     /// The distance of two points.
     Distance(At, At),
+}
+
+impl<S> Quantity<S> {
+    /// What it is of, without its numbers.
+    pub(crate) fn without_numbers(&self) -> Quantity<()> {
+        match self {
+            Self::Joint(reading) => Quantity::Joint(*reading),
+            Self::Difference(first, second, _) => Quantity::Difference(*first, *second, ()),
+            Self::Gap(at, plane) => Quantity::Gap(*at, plane.without_numbers()),
+            Self::Distance(a, b) => Quantity::Distance(*a, *b),
+        }
+    }
 }
 
 impl<S: Scalar> Quantity<S> {

@@ -50,24 +50,20 @@ impl<S: Real> Motion<S> {
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
-    /// What comes after an instant: of a quantity on a limit, by its sign, or engaged, that rests
-    /// there or goes on. Nothing of one that is held without a bound and does not rest.
-    fn next(
-        &self,
-        (at_limit, is_engaged, rests): (Option<S>, bool, bool),
-        rate: S,
-    ) -> Option<Next<S>> {
+    /// What comes after an instant: of a quantity on a limit or engaged, that rests there or goes
+    /// on. Nothing of one that is held without a bound and does not rest.
+    fn next(&self, one: &Struck<S>) -> Option<Next<S>> {
         let is_held = self
             .friction()
             .is_some_and(|held| !held.capacity.is_finite());
-        if is_held && is_engaged && !rests {
+        if is_held && one.is_engaged && !one.rests {
             return None;
         }
-        Some(match at_limit {
-            Some(sign) if rests => Next::On(sign),
-            _ if !is_engaged => Next::Without,
-            _ if rests => Next::Still,
-            _ if rate > S::zero() => Next::Moving(S::one()),
+        Some(match one.at_limit {
+            Some(sign) if one.rests => Next::On(sign),
+            _ if !one.is_engaged => Next::Without,
+            _ if one.rests => Next::Still,
+            _ if one.motion.rate > S::zero() => Next::Moving(S::one()),
             _ => Next::Moving(-S::one()),
         })
     }
@@ -118,6 +114,40 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     }
 }
 
+/// An interaction at an instant.
+struct Struck<S> {
+    /// How its quantity moves, after the impulses once they are known.
+    motion: Motion<S>,
+    /// The rate before.
+    before: S,
+    /// The limit that the quantity is on, by its sign.
+    at_limit: Option<S>,
+    /// It is friction that is engaged.
+    is_engaged: bool,
+    impulse: S,
+    /// It is at rest, to round-off.
+    rests: bool,
+}
+
+impl<S: Real> Struck<S> {
+    fn of<M: Mechanism>(tracked: &Tracked<S, M>, scene: &Scene<'_, S, M>) -> Self {
+        let motion = Motion::of(tracked, scene);
+        Self {
+            before: motion.rate,
+            motion,
+            at_limit: None,
+            is_engaged: tracked.friction().is_some() && tracked.status.get().is_engaged,
+            impulse: S::zero(),
+            rests: false,
+        }
+    }
+
+    /// Whether an impulse may act on it.
+    fn is_chosen(&self) -> bool {
+        self.is_engaged || self.at_limit.is_some()
+    }
+}
+
 /// Impulses of limits and dogs at an instant: writes what they change of the velocities, and what
 /// may follow into the statuses. Brings to rest what comes to rest: what was held is, unless a
 /// handler has moved it.
@@ -133,97 +163,51 @@ where
     F: Formulation<S>,
     C: Coordinates<M>,
 {
-    let mut at_limit = [None; K];
-    let mut is_engaged = [false; K];
-    let mut motions: [Motion<S>; K] =
-        setting.here(|scene| list.each_ref().map(|tracked| Motion::of(tracked, scene)));
+    let mut all: [Struck<S>; K] =
+        setting.here(|scene| list.each_ref().map(|tracked| Struck::of(tracked, scene)));
     for (index, tracked) in list.iter().enumerate() {
-        match &tracked.interaction.law {
-            Law::Limits(limits) => {
-                let limit = setting.here(|scene| tracked.limit(limits, scene));
-                at_limit[index] = limit.map_err(|fault| driven(setting, list, index, fault))?;
-            }
-            Law::Friction(_) => is_engaged[index] = tracked.status.get().is_engaged,
+        if let Law::Limits(limits) = &tracked.interaction.law {
+            let limit = setting.here(|scene| tracked.limit(limits, scene));
+            all[index].at_limit = limit.map_err(|fault| driven(setting, list, index, fault))?;
         }
     }
-    let mut chosen = is_engaged;
-    for (chosen, at_limit) in chosen.iter_mut().zip(&at_limit) {
-        *chosen |= at_limit.is_some();
-    }
+    let chosen = all.each_ref().map(Struck::is_chosen);
     let columns = Columns::of(setting, list, &chosen)?;
-    let before = motions.each_ref().map(|motion| motion.rate);
+    let before = all.each_ref().map(|one| one.before);
     let mut problem = BoxProblem::at_rest(columns.delassus, before);
-    let infinite = S::constant(f64::INFINITY);
     let mut is_struck = false;
     for (index, tracked) in list.iter().enumerate() {
-        let motion = &motions[index];
-        match &tracked.interaction.law {
-            Law::Limits(limits) => {
-                let Some(sign) = at_limit[index] else {
-                    continue;
-                };
-                let approach = -(sign * motion.rate);
-                if sign > S::zero() {
-                    problem.upper[index] = infinite;
-                } else {
-                    problem.lower[index] = -infinite;
-                }
-                if approach > motion.none() {
-                    is_struck = true;
-                    let restitution = tracked.restitution(limits, approach);
-                    problem.offset[index] = (S::one() + restitution) * motion.rate;
-                }
-            }
-            Law::Friction(friction) => {
-                if is_engaged[index] && !friction.capacity.is_finite() {
-                    (problem.lower[index], problem.upper[index]) = (-infinite, infinite);
-                    is_struck |= motion.rate.abs() > motion.none();
-                }
-            }
-        }
+        is_struck |= tracked.collides(&all[index], &mut problem, index);
     }
-    let mut impulses = [S::zero(); K];
     if is_struck {
-        let solution = solved(&problem, setting, list)?;
-        impulses = solution.efforts;
-        for motion in motions.iter_mut().zip(&columns.delassus) {
-            let (motion, row) = motion;
-            let terms = row.iter().zip(&impulses);
-            motion.rate = terms.fold(motion.rate, |sum, (&w, &x)| w.fused(x, sum));
+        let impulses = solved(&problem, setting, list)?.efforts;
+        for (index, row) in columns.delassus.iter().enumerate() {
+            let (one, terms) = (&mut all[index], row.iter().zip(&impulses));
+            one.impulse = impulses[index];
+            one.motion.rate = terms.fold(one.before, |sum, (&w, &x)| w.fused(x, sum));
         }
-        for (index, tracked) in list.iter().enumerate() {
-            if let Some(sign) = at_limit[index]
-                && let Law::Limits(limits) = &tracked.interaction.law
-                && goes_on(sign, before[index], &motions[index])
-            {
-                let [lower, upper] = limits.bounds;
-                let limit = if sign > S::zero() { lower } else { upper };
-                let driven = against(setting, tracked.interaction.name(), limit.to_f64());
-                return Err(driven.unwrap_or_else(|| no_mode(setting, tracked)));
-            }
+        for (tracked, one) in list.iter().zip(&all) {
+            tracked.refuse_to_go_on(setting, one)?;
         }
-        report(setting, list, &impulses, &before, &motions);
+        report(setting, list, &all);
     }
-    // What is at rest now, to round-off.
-    let mut rests = [false; K];
     for (index, tracked) in list.iter().enumerate() {
-        let (status, motion) = (tracked.status.get(), &motions[index]);
+        let status = tracked.status.get();
         let was_at_rest = !is_struck && !is_moved && (status.mode.holds() || status.is_found);
         let unresolved = tracked.unresolved(setting.saddle.time, columns.delassus[index][index]);
-        let is_slow = motion.rate.abs() <= motion.none().max(unresolved);
-        let rest = is_slow || was_at_rest && status.mode != InteractionMode::Free;
-        rests[index] = chosen[index] && rest;
+        let one = &mut all[index];
+        let is_slow = one.motion.rate.abs() <= one.motion.none().max(unresolved);
+        let rests = is_slow || was_at_rest && status.mode != InteractionMode::Free;
+        one.rests = one.is_chosen() && rests;
     }
+    let rests = all.each_ref().map(|one| one.rests);
     let last = Factors::of(&columns.delassus, &rests);
-    let last = last.solve(&motions.each_ref().map(|motion| motion.rate));
-    for (index, impulse) in impulses.iter_mut().enumerate() {
-        *impulse = *impulse - last[index];
-    }
+    let last = last.solve(&all.each_ref().map(|one| one.motion.rate));
+    let impulses = core::array::from_fn(|index| all[index].impulse - last[index]);
     *change = Array::zeros();
     columns.add_velocities(&impulses, change);
-    for (index, tracked) in list.iter().enumerate() {
-        let (limit, engaged) = (at_limit[index], is_engaged[index]);
-        let next = tracked.next((limit, engaged, rests[index]), motions[index].rate);
+    for (tracked, one) in list.iter().zip(&all) {
+        let next = tracked.next(one);
         tracked.enter_next(next.ok_or_else(|| no_mode(setting, tracked))?);
     }
     Ok(())
@@ -304,6 +288,59 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         compliance * capacity * S::constant(OF_TIME) * time.ulp()
     }
 
+    /// Says in the problem of impulses which ones it has, and which rate is wanted; whether there is
+    /// one that is not zero.
+    fn collides<const K: usize>(
+        &self,
+        one: &Struck<S>,
+        problem: &mut BoxProblem<S, K>,
+        index: usize,
+    ) -> bool {
+        let (motion, infinite) = (&one.motion, S::constant(f64::INFINITY));
+        match (&self.interaction.law, one.at_limit) {
+            (Law::Limits(limits), Some(sign)) => {
+                if sign > S::zero() {
+                    problem.upper[index] = infinite;
+                } else {
+                    problem.lower[index] = -infinite;
+                }
+                let approach = -(sign * motion.rate);
+                let is_struck = approach > motion.none();
+                if is_struck {
+                    let restitution = self.restitution(limits, approach);
+                    problem.offset[index] = (S::one() + restitution) * motion.rate;
+                }
+                is_struck
+            }
+            (Law::Friction(friction), _) if one.is_engaged && !friction.capacity.is_finite() => {
+                (problem.lower[index], problem.upper[index]) = (-infinite, infinite);
+                motion.rate.abs() > motion.none()
+            }
+            _ => false,
+        }
+    }
+
+    /// Refuses an impulse that has not stopped what approaches a limit: a driver moves it.
+    fn refuse_to_go_on<F: Formulation<S>, C: Coordinates<M>>(
+        &self,
+        setting: &Setting<'_, S, M, F, C>,
+        one: &Struck<S>,
+    ) -> Result<(), Fault> {
+        let (Law::Limits(limits), Some(sign)) = (&self.interaction.law, one.at_limit) else {
+            return Ok(());
+        };
+        let approaches = -(sign * one.before);
+        let half = S::constant(0.5) * approaches;
+        let goes_on = approaches > one.motion.none() && -(sign * one.motion.rate) > half;
+        if !goes_on {
+            return Ok(());
+        }
+        let [lower, upper] = limits.bounds;
+        let limit = if sign > S::zero() { lower } else { upper };
+        let driven = against(setting, self.interaction.name(), limit.to_f64());
+        Err(driven.unwrap_or_else(|| no_mode(setting, self)))
+    }
+
     /// The restitution of an approach.
     fn restitution(&self, limits: &Limits<S>, approach: S) -> S {
         let fastest = self.status.get().fastest.max(approach);
@@ -321,20 +358,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     }
 }
 
-/// Whether an impulse has not stopped what approaches a limit: a driver moves it.
-fn goes_on<S: Real>(sign: S, before: S, after: &Motion<S>) -> bool {
-    let approaches = -(sign * before);
-    let half = S::constant(0.5) * approaches;
-    approaches > after.none() && -(sign * after.rate) > half
-}
-
 /// Leaves the impulses in the statuses.
 fn report<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
     list: &[Tracked<S, M>; K],
-    impulses: &[S; K],
-    before: &[S; K],
-    after: &[Motion<S>; K],
+    all: &[Struck<S>; K],
 ) where
     S: Real,
     M: Mechanism,
@@ -343,16 +371,15 @@ fn report<S, M, F, C, const K: usize>(
 {
     let half = S::constant(0.5);
     let mut lost = S::zero();
-    for (index, &impulse) in impulses.iter().enumerate() {
-        lost = lost - half * impulse * (before[index] + after[index].rate);
+    for one in all {
+        lost = lost - half * one.impulse * (one.before + one.motion.rate);
     }
-    for (index, tracked) in list.iter().enumerate() {
-        let impulse = impulses[index];
-        if impulse != S::zero() {
+    for (tracked, one) in list.iter().zip(all) {
+        if one.impulse != S::zero() {
             let impact = Impact {
                 time: setting.saddle.time,
-                impulse,
-                rates: [before[index], after[index].rate],
+                impulse: one.impulse,
+                rates: [one.before, one.motion.rate],
                 lost_energy: lost,
             };
             tracked.update(|status| status.impact = Some(impact));

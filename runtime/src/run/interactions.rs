@@ -21,12 +21,12 @@ where
     A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
-    /// Adds limits, dry friction, brakes and clutches, which handlers and observers call by their
-    /// place in the list. See [`guide::contact`](mod@crate::guide::contact).
+    /// Adds limits, dry friction, brakes and clutches, which handlers and observers call by
+    /// [handles](Interaction::handles). See [`guide::contact`](mod@crate::guide::contact).
     ///
     /// The limits of the description, `#[joint(.., limits = [-1.0, 1.0])]`, are heeded without a
-    /// word: they stand behind this list, in the order of the fields. Where the list has limits of
-    /// the same quantity, those hold instead. It is said once.
+    /// word, and called by [`JointQuantity::limits`](crate::run::JointQuantity::limits). Where the
+    /// list has limits of the same quantity, those hold instead. It is said once.
     ///
     /// ```
     /// # use holonom::prelude::*;

@@ -76,6 +76,7 @@ mod written;
 
 pub use crate::nonsmooth::bearing::HasBearing;
 pub use crate::nonsmooth::described::{Beside, Limited};
+pub use crate::nonsmooth::handle::InteractionHandle;
 pub use crate::nonsmooth::interaction::Interaction;
 pub use crate::nonsmooth::place::Plane;
 pub use crate::nonsmooth::quantity::JointQuantity;

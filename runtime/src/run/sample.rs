@@ -15,6 +15,7 @@ use crate::mechanism::coordinates::Evaluation;
 use crate::mechanism::handle::{BodyHandle, Driven, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
+use crate::nonsmooth::handle::{InteractionHandle, named};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{Impact, InteractionMode, Tracked};
 use crate::state::vector::StateParts;
@@ -204,14 +205,13 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
         Ok(self.view.displacement_acceleration(rates, joint))
     }
 
-    /// The mode of an interaction by its place in the list of
-    /// [`Simulation::interactions`](crate::Simulation::interactions). The state in which a mode
-    /// ends is shown in that mode, and once more in the next one after an impulse.
+    /// The mode of an interaction. The state in which a mode ends is shown in that mode, and once
+    /// more in the next one after an impulse.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`].
-    pub fn mode(&self, number: usize) -> Result<InteractionMode, Fault> {
-        Ok(self.tracked(number)?.told_mode())
+    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
+    pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, Fault> {
+        Ok(self.tracked(interaction)?.told_mode())
     }
 
     /// The power (W) of the forces of the language that have no potential
@@ -220,7 +220,7 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// evaluation where friction slides by its load; NaN where that cannot be done.
     #[must_use]
     pub fn power(&self) -> S {
-        let list = self.dynamics.interactions();
+        let list = self.interactions();
         if list.iter().any(Tracked::slips_by_load) {
             let found = self.dynamics.find_efforts(self.time(), self.state());
             if found.is_err() {
@@ -239,9 +239,9 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The effort of an interaction (N m, N) along its quantity, positive upwards. One evaluation.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], the fault of the evaluation.
-    pub fn effort(&self, number: usize) -> Result<S, Fault> {
-        let tracked = self.tracked(number)?;
+    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`], the fault of the evaluation.
+    pub fn effort(&self, interaction: InteractionHandle<M>) -> Result<S, Fault> {
+        let tracked = self.tracked(interaction)?;
         self.dynamics.find_efforts(self.time(), self.state())?;
         Ok(tracked.status.get().effort)
     }
@@ -249,17 +249,18 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The last impulse of an interaction in the run so far, if there was one.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`].
-    pub fn impact(&self, number: usize) -> Result<Option<Impact<S>>, Fault> {
-        Ok(self.tracked(number)?.status.get().impact)
+    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
+    pub fn impact(&self, interaction: InteractionHandle<M>) -> Result<Option<Impact<S>>, Fault> {
+        Ok(self.tracked(interaction)?.status.get().impact)
     }
 
-    pub(super) fn tracked(&self, number: usize) -> Result<&'a Tracked<S, M>, Fault> {
-        let list = self.dynamics.interactions();
-        list.get(number).ok_or(Fault::NoSuchInteraction {
-            number,
-            interactions: list.len(),
-        })
+    fn tracked(&self, interaction: InteractionHandle<M>) -> Result<&'a Tracked<S, M>, Fault> {
+        named(self.interactions(), interaction)
+    }
+
+    /// All interactions of the run, with their statuses.
+    pub(super) fn interactions(&self) -> &'a [Tracked<S, M>] {
+        self.dynamics.interactions()
     }
 
     /// The violation of the constraints by the accelerations: the square of `D u' - gamma`.

@@ -86,18 +86,20 @@ fn work(end: f64, steps: usize) -> f64 {
     let mut powers: Vec<f64> = Vec::new();
     let mut last = f64::NAN;
     let interval = end / steps as f64;
+    let frictions = [
+        Interaction::friction_by_load(h.slide, 0.2),
+        Interaction::friction_by_load(h.bearing, 0.3).radius(0.02),
+    ];
+    let [on_slide, in_bearing] = Interaction::handles(&frictions);
     crank
         .simulation(StandardLagrange, DormandPrince::new(tight()))
-        .interactions([
-            Interaction::friction_by_load(h.slide, 0.2),
-            Interaction::friction_by_load(h.bearing, 0.3).radius(0.02),
-        ])
+        .interactions(frictions)
         .run(0.0..=end, every(interval), |sample| -> Result<(), Fault> {
             let step = (sample.time() / interval).round();
             let is_report = (sample.time() - step * interval).abs() < 1e-12;
             if is_report && step != last {
-                let slide = sample.effort(0)? * sample.displacement_rate(h.slide);
-                let bearing = sample.effort(1)? * sample.angle_rate(h.bearing);
+                let slide = sample.effort(on_slide)? * sample.displacement_rate(h.slide);
+                let bearing = sample.effort(in_bearing)? * sample.angle_rate(h.bearing);
                 powers.push(slide + bearing);
                 last = step;
             }

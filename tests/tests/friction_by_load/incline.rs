@@ -25,11 +25,13 @@ fn throw<C: Coordinates<Incline>, F: Formulation<f64>>(formulation: F, bound: f6
         let brakes = GRAVITY * (SINE + mu * COSINE);
         let (stop, top) = (up / brakes, up * up / (2.0 * brakes));
         let falls = (GRAVITY * (SINE - mu * COSINE)).max(0.0);
+        let frictions = [Interaction::friction_by_load(h.slide, mu)];
+        let [friction] = Interaction::handles(&frictions);
         let mut modes = Vec::new();
         let report = Simulation::new(&incline, formulation, DormandPrince::new(tight()))
             .coordinates::<C>()
             .initial_state(thrown(&incline, -up))
-            .interactions([Interaction::friction_by_load(h.slide, mu)])
+            .interactions(frictions)
             .run(0.0..=2.0, every(0.1), |sample| -> Result<(), Fault> {
                 let time = sample.time();
                 let after = (time - stop).max(0.0);
@@ -42,7 +44,7 @@ fn throw<C: Coordinates<Incline>, F: Formulation<f64>>(formulation: F, bound: f6
                     "{mu} {time}: {found} {place}"
                 );
                 if (time - stop).abs() > 1e-9 {
-                    let mode = sample.mode(0)?;
+                    let mode = sample.mode(friction)?;
                     if modes.last() != Some(&mode) {
                         modes.push(mode);
                     }
@@ -51,7 +53,7 @@ fn throw<C: Coordinates<Incline>, F: Formulation<f64>>(formulation: F, bound: f6
                         Mode::SlidingDown => 2.0 * GRAVITY * mu * COSINE,
                         _ => -2.0 * GRAVITY * mu * COSINE,
                     };
-                    let found = sample.effort(0)?;
+                    let found = sample.effort(friction)?;
                     assert!(
                         (found - effort).abs() < bound,
                         "{mu} {time}: {found} {effort}"
@@ -117,6 +119,8 @@ fn loosens<C: Coordinates<Incline>>() {
     let (incline, h) = (Incline::default(), Incline::HANDLES);
     let (mu, mass) = (0.4, 2.0);
     let slip = (40.0 + mass * GRAVITY * (COSINE - SINE / mu)) / 4.0;
+    let frictions = [Interaction::friction_by_load(h.slide, mu)];
+    let [friction] = Interaction::handles(&frictions);
     let mut seen = [false; 2];
     let report = Simulation::new(&incline, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
@@ -124,7 +128,7 @@ fn loosens<C: Coordinates<Incline>>() {
             let press = 40.0 - 4.0 * time;
             loads.force(h.block, [-SINE * press, 0.0, -COSINE * press]);
         })
-        .interactions([Interaction::friction_by_load(h.slide, mu)])
+        .interactions(frictions)
         .run(0.0..=9.0, every(0.1), |sample| -> Result<(), Fault> {
             let time = sample.time();
             let after = (time - slip).max(0.0);
@@ -139,7 +143,7 @@ fn loosens<C: Coordinates<Incline>>() {
                 } else {
                     Mode::SlidingUp
                 };
-                assert_eq!(sample.mode(0)?, mode, "{time} {slip}");
+                assert_eq!(sample.mode(friction)?, mode, "{time} {slip}");
             }
             Ok(())
         })
@@ -187,11 +191,12 @@ fn stiction_and_stribeck_are_of_coefficients() {
 fn steps_and_single_precision() {
     let (incline, h) = (Incline::default(), Incline::HANDLES);
     let brakes = GRAVITY * (SINE + 0.9 * COSINE);
-    let friction = Interaction::friction_by_load(h.slide, 0.9);
+    let frictions = [Interaction::friction_by_load(h.slide, 0.9)];
+    let [friction] = Interaction::handles(&frictions);
     let mut stepper = incline
         .stepper(StandardLagrange, Rk4)
         .expect("it is prepared")
-        .interactions([friction]);
+        .interactions(frictions);
     let mut state = stepper
         .state_of(&thrown(&incline, -2.0))
         .expect("it is consistent");
@@ -201,8 +206,8 @@ fn steps_and_single_precision() {
     let bodies = stepper.bodies(&state);
     let place = stepper.view(&bodies).displacement(h.slide);
     assert!((place + 2.0 / brakes).abs() < 1e-11, "{place}");
-    assert_eq!(stepper.mode(0), Ok(Mode::Sticking));
-    let effort = stepper.effort(0, &state).expect("it is known");
+    assert_eq!(stepper.mode(friction), Ok(Mode::Sticking));
+    let effort = stepper.effort(friction, &state).expect("it is known");
     assert!((effort + 2.0 * GRAVITY * SINE).abs() < 1e-10, "{effort}");
 
     let friction = Interaction::<f32, _>::friction_by_load(h.slide, 0.9);
@@ -231,14 +236,16 @@ fn bounces<C: Coordinates<Incline>>() {
     let slide = h.slide.displacement();
     let mut impacts: Vec<f64> = Vec::new();
     let mut last = f64::NAN;
+    let interactions = [
+        Interaction::limits(slide, [f64::NEG_INFINITY, 1.0]).restitution(0.5),
+        Interaction::friction_by_load(h.slide, 0.5),
+    ];
+    let [stop, friction] = Interaction::handles(&interactions);
     let report = Simulation::new(&incline, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
-        .interactions([
-            Interaction::limits(slide, [f64::NEG_INFINITY, 1.0]).restitution(0.5),
-            Interaction::friction_by_load(h.slide, 0.5),
-        ])
+        .interactions(interactions)
         .run(0.0..=20.0, every(0.1), |sample| -> Result<(), Fault> {
-            if let Some(impact) = sample.impact(0)?
+            if let Some(impact) = sample.impact(stop)?
                 && impact.time != last
             {
                 last = impact.time;
@@ -246,11 +253,11 @@ fn bounces<C: Coordinates<Incline>>() {
             }
             if sample.time() > 10.0 {
                 // Stop and friction share what holds it.
-                assert_eq!(sample.mode(1)?, Mode::Sticking);
-                let held = sample.effort(0)? + sample.effort(1)?;
+                assert_eq!(sample.mode(friction)?, Mode::Sticking);
+                let held = sample.effort(stop)? + sample.effort(friction)?;
                 assert!((held + 2.0 * GRAVITY * SINE).abs() < 1e-10, "{held}");
                 let capacity = 2.0 * GRAVITY * 0.5 * COSINE;
-                assert!(sample.effort(1)?.abs() < capacity * (1.0 + 1e-11));
+                assert!(sample.effort(friction)?.abs() < capacity * (1.0 + 1e-11));
                 // The top of the last bounce is nearer than what counts as touching.
                 let beyond = sample.displacement(h.slide) - 1.0;
                 assert!(beyond.abs() < 1e-9, "{beyond:e}");

@@ -32,14 +32,16 @@ fn rod(angle: f64, direction: f64) -> (Rod, StateOf<Rod>) {
 /// The friction at the start, or the fault.
 fn effort<C: Coordinates<Rod>>(mu: f64, angle: f64, direction: f64) -> Result<f64, Fault> {
     let ((rod, state), h) = (rod(angle, direction), Rod::HANDLES);
+    let frictions = [Interaction::friction_by_load(h.foot, mu)];
+    let [friction] = Interaction::handles(&frictions);
     let mut effort = None;
     let run = Simulation::new(&rod, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
         .initial_state(state)
-        .interactions([Interaction::friction_by_load(h.foot, mu)])
+        .interactions(frictions)
         .run(0.0..=1e-3, every(1e-3), |sample| -> Result<(), Fault> {
             if effort.is_none() {
-                effort = Some(sample.effort(0)?);
+                effort = Some(sample.effort(friction)?);
             }
             Ok(())
         });

@@ -20,15 +20,16 @@ struct Rod {
 
 fn swings<C: Coordinates<Rod>, F: Formulation<f64>>(formulation: F, bounds: [f64; 2]) {
     let (rod, h) = (Rod::default(), Rod::HANDLES);
-    let friction = Interaction::friction_by_load(h.hinge, 0.6).radius(0.05);
+    let frictions = [Interaction::friction_by_load(h.hinge, 0.6).radius(0.05)];
+    let [friction] = Interaction::handles(&frictions);
     let mut stops = Vec::new();
     let mut before = None;
     let report = Simulation::new(&rod, formulation, DormandPrince::new(tight()))
         .coordinates::<C>()
-        .interactions([friction])
+        .interactions(frictions)
         .run(0.0..=30.0, every(30.0), |sample| -> Result<(), Fault> {
             // A change of modes is shown on both of its sides.
-            let now = (sample.time(), sample.mode(0)?);
+            let now = (sample.time(), sample.mode(friction)?);
             if let Some((time, mode)) = before
                 && time == now.0
                 && mode != now.1
@@ -40,7 +41,7 @@ fn swings<C: Coordinates<Rod>, F: Formulation<f64>>(formulation: F, bounds: [f64
                 assert_eq!(now.1, Mode::Sticking);
                 // What holds it: the moment of its weight.
                 let effort = 9.81 * sample.angle(h.hinge).cos();
-                let found = sample.effort(0)?;
+                let found = sample.effort(friction)?;
                 assert!((found - effort).abs() < bounds[1], "{found} {effort}");
             }
             Ok(())

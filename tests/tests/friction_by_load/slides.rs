@@ -153,10 +153,12 @@ fn passes<C: Coordinates<Engine>>() {
     let energy = |sample: &View<'_, f64, Engine>| sample.kinetic_energy();
     let (mut way, mut before, mut modes) = (0.0, 0.0, Vec::new());
     let mut lost = [0.0; 2];
+    let frictions = [Interaction::friction(h.rail.displacement(), 0.5)];
+    let [friction] = Interaction::handles(&frictions);
     Simulation::new(&engine, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
         .initial_state(start)
-        .interactions([Interaction::friction(h.rail.displacement(), 0.5)])
+        .interactions(frictions)
         .run(0.0..=3.0, every(1e-3), |sample| -> Result<(), Fault> {
             // A known friction takes its capacity times the way of the slider.
             let place = sample.displacement(h.rail);
@@ -166,7 +168,7 @@ fn passes<C: Coordinates<Engine>>() {
                 lost[0] = energy(sample);
             }
             lost[1] = energy(sample);
-            let mode = sample.mode(0)?;
+            let mode = sample.mode(friction)?;
             if modes.last() != Some(&mode) {
                 modes.push(mode);
             }

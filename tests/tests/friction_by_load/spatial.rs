@@ -74,16 +74,18 @@ fn swings<C: Coordinates<Crane>>(rates: [f64; 3]) -> ([f64; 3], [[bool; 3]; 3]) 
         relative: 1e-10,
         absolute: 1e-10,
     };
+    let frictions = [
+        Interaction::friction_by_load(h.rail, RAIL.0).guide(RAIL.1),
+        Interaction::friction_by_load(h.shoulder, SHOULDER.0).radius(SHOULDER.1),
+        Interaction::friction_by_load(h.elbow, ELBOW.0)
+            .radius(ELBOW.1)
+            .guide(ELBOW.2),
+    ];
+    let handles = Interaction::handles(&frictions);
     let report = Simulation::new(&crane, StandardLagrange, DormandPrince::new(tolerance))
         .coordinates::<C>()
         .initial_state(start)
-        .interactions([
-            Interaction::friction_by_load(h.rail, RAIL.0).guide(RAIL.1),
-            Interaction::friction_by_load(h.shoulder, SHOULDER.0).radius(SHOULDER.1),
-            Interaction::friction_by_load(h.elbow, ELBOW.0)
-                .radius(ELBOW.1)
-                .guide(ELBOW.2),
-        ])
+        .interactions(frictions)
         .run(0.0..=5.0, every(0.05), |sample| -> Result<(), Fault> {
             let rates = [
                 sample.displacement_rate(h.rail),
@@ -91,7 +93,10 @@ fn swings<C: Coordinates<Crane>>(rates: [f64; 3]) -> ([f64; 3], [[bool; 3]; 3]) 
                 sample.angle_rate(h.elbow),
             ];
             for (number, capacity) in capacities(sample)?.into_iter().enumerate() {
-                let (mode, effort) = (sample.mode(number)?, sample.effort(number)?);
+                let (mode, effort) = (
+                    sample.mode(handles[number])?,
+                    sample.effort(handles[number])?,
+                );
                 let (place, is_right) = match mode {
                     Mode::SlidingUp => (0, (effort + capacity).abs() < 1e-9 * capacity),
                     Mode::SlidingDown => (1, (effort - capacity).abs() < 1e-9 * capacity),

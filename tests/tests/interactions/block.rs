@@ -2,7 +2,7 @@
 
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::run::InteractionMode;
+use holonom::run::{InteractionHandle, InteractionMode};
 
 use super::{Block, tight};
 
@@ -23,21 +23,29 @@ fn moving(block: &Block, speed: f64) -> StateOf<Block> {
     state
 }
 
+/// Friction on the slide, and its handle.
+fn rubs(capacity: f64) -> ([Interaction<f64, Block>; 1], [InteractionHandle<Block>; 1]) {
+    let slide = Block::HANDLES.slide.displacement();
+    let frictions = [Interaction::friction(slide, capacity)];
+    (frictions, Interaction::handles(&frictions))
+}
+
 fn stops<C: Coordinates<Block>>() {
     let (block, h) = (pushed(0.0), Block::HANDLES);
     let (speed, capacity) = (3.1, 5.0);
+    let (frictions, [friction]) = rubs(capacity);
     let mut stopped = None;
     let report = Simulation::new(&block, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
         .initial_state(moving(&block, speed))
-        .interactions([Interaction::friction(h.slide.displacement(), capacity)])
+        .interactions(frictions)
         .run(0.0_f64..=3.0, every(0.1), |sample| {
-            if sample.mode(0) == Ok(InteractionMode::Sticking) && stopped.is_none() {
+            if sample.mode(friction) == Ok(InteractionMode::Sticking) && stopped.is_none() {
                 stopped = Some((sample.time(), sample.displacement(h.slide)));
             }
-            let effort = sample.effort(0).expect("one interaction");
+            let effort = sample.effort(friction).expect("one interaction");
             // At the stop there is a report before, and one after.
-            let slides = sample.mode(0) == Ok(InteractionMode::SlidingUp);
+            let slides = sample.mode(friction) == Ok(InteractionMode::SlidingUp);
             if (sample.time() - 1.24).abs() > 1e-9 {
                 assert_eq!(slides, sample.time() < 1.24);
             }
@@ -68,14 +76,15 @@ fn a_block_stops_where_its_energy_is_gone() {
 
 #[test]
 fn the_time_of_a_stop_is_exact() {
-    let (block, h) = (pushed(0.0), Block::HANDLES);
+    let block = pushed(0.0);
+    let (frictions, [friction]) = rubs(5.0);
     let mut stopped = 0.0;
     let report = Simulation::new(&block, StandardLagrange, DormandPrince::new(tight()))
         .initial_state(moving(&block, 3.1))
-        .interactions([Interaction::friction(h.slide.displacement(), 5.0)])
+        .interactions(frictions)
         .run(0.0_f64..=3.0, every(0.7), |sample| {
             // The state that was found is shown before its mode changes.
-            if sample.mode(0) == Ok(InteractionMode::SlidingUp) {
+            if sample.mode(friction) == Ok(InteractionMode::SlidingUp) {
                 stopped = sample.time();
             }
         })
@@ -86,13 +95,14 @@ fn the_time_of_a_stop_is_exact() {
 
 fn stays<C: Coordinates<Block>>() {
     let (block, h) = (pushed(0.9 * 5.0), Block::HANDLES);
+    let (frictions, [friction]) = rubs(5.0);
     let report = Simulation::new(&block, StandardLagrange, DormandPrince::default())
         .coordinates::<C>()
-        .interactions([Interaction::friction(h.slide.displacement(), 5.0)])
+        .interactions(frictions)
         .run(0.0_f64..=1e4, every(100.0), |sample| {
-            assert_eq!(sample.mode(0), Ok(InteractionMode::Sticking));
+            assert_eq!(sample.mode(friction), Ok(InteractionMode::Sticking));
             assert!(sample.displacement(h.slide).abs() < 1e-10);
-            let effort = sample.effort(0).expect("one interaction");
+            let effort = sample.effort(friction).expect("one interaction");
             assert!((effort + 4.5).abs() < 1e-12);
         })
         .expect("it stays");
@@ -125,14 +135,15 @@ fn swings<C: Coordinates<Block>>() {
         let phase = core::f64::consts::PI * (time / half - swing);
         sign * (0.015 + amplitude * phase.cos())
     };
+    let (frictions, [friction]) = rubs(capacity);
     let report = Simulation::new(&block, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
         .initial_state(start)
-        .interactions([Interaction::friction(h.slide.displacement(), capacity)])
+        .interactions(frictions)
         .run(0.0_f64..=2.0, every(0.01), |sample| {
             let (x, wanted) = (sample.displacement(h.slide), exact(sample.time()));
             assert!((x - wanted).abs() < 1e-11, "{} {x} {wanted}", sample.time());
-            let sticks = sample.mode(0) == Ok(InteractionMode::Sticking);
+            let sticks = sample.mode(friction) == Ok(InteractionMode::Sticking);
             // At the end of the last swing there is a report before, and one after.
             if (sample.time() - 3.0 * half).abs() > 1e-9 {
                 assert_eq!(sticks, sample.time() > 3.0 * half);

@@ -13,13 +13,15 @@ fn row<C: Coordinates<Row>>() {
         .expect("it is free");
     // The second touches the third, the first meets the second after 0.5 s: by Moreau's law with a
     // restitution of 1 the rates after that are -1/3, 2/3 and 2/3.
+    let contacts = [
+        Interaction::contact_of_balls(h.a, h.b, 0.5).restitution(1.0),
+        Interaction::contact_of_balls(h.b, h.c, 0.5).restitution(1.0),
+    ];
+    let [_, second] = Interaction::handles(&contacts);
     let report = Simulation::new(&row, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
         .initial_state(start)
-        .interactions([
-            Interaction::contact_of_balls(h.a, h.b, 0.5).restitution(1.0),
-            Interaction::contact_of_balls(h.b, h.c, 0.5).restitution(1.0),
-        ])
+        .interactions(contacts)
         .run(0.0_f64..=2.0, every(0.1), |sample| {
             let rates = [h.first, h.second, h.third].map(|joint| sample.displacement_rate(joint));
             let wanted = if sample.time() <= 0.5 + 1e-9 {
@@ -31,7 +33,7 @@ fn row<C: Coordinates<Row>>() {
                 let close = (rate - wanted).abs() < 1e-12;
                 assert!(close || sample.time() < 0.5 + 1e-9, "{rates:?}");
             }
-            if let Some(impact) = sample.impact(1).expect("two interactions") {
+            if let Some(impact) = sample.impact(second).expect("two interactions") {
                 assert!((impact.impulse - 2.0 / 3.0).abs() < 1e-12);
                 assert!(impact.lost_energy.abs() < 1e-12, "{impact:?}");
             }
@@ -56,19 +58,19 @@ fn falls<C: Coordinates<Falling>>() {
     Falling::set_pose(&mut start, h.rod, pose);
     let restitution = 0.6;
     let floor = Plane::on_ground([0.0, 0.0, 0.0], [0.0, 0.0, 2.0]);
+    let contacts =
+        [h.end, h.other].map(|point| Interaction::contact(point, floor).restitution(restitution));
+    let [_, other] = Interaction::handles(&contacts);
     let mut first = None;
     let report = Simulation::new(&falling, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
         .initial_state(start)
-        .interactions([
-            Interaction::contact(h.end, floor).restitution(restitution),
-            Interaction::contact(h.other, floor).restitution(restitution),
-        ])
+        .interactions(contacts)
         .run(0.0_f64..=8.0, every(0.05), |sample| {
             for point in [h.end, h.other] {
                 assert!(sample.position(point).z > -1e-11, "{}", sample.time());
             }
-            if let Some(impact) = sample.impact(1).expect("two interactions") {
+            if let Some(impact) = sample.impact(other).expect("two interactions") {
                 first.get_or_insert(impact);
             }
         })
@@ -98,15 +100,14 @@ fn a_rod_falls_on_its_ends() {
 fn a_rod_at_rest_stands_on_both_ends() {
     let (falling, h) = (Falling::default(), Falling::HANDLES);
     let floor = Plane::on_ground([0.0, 0.0, 0.9], [0.0, 0.0, 1.0]);
+    let contacts = [h.end, h.other].map(|point| Interaction::contact(point, floor).radius(0.1));
+    let handles = Interaction::handles(&contacts);
     Simulation::new(&falling, StandardLagrange, DormandPrince::default())
-        .interactions([
-            Interaction::contact(h.end, floor).radius(0.1),
-            Interaction::contact(h.other, floor).radius(0.1),
-        ])
+        .interactions(contacts)
         .run(0.0_f64..=100.0, every(1.0), |sample| {
-            for number in 0..2 {
-                assert_eq!(sample.mode(number), Ok(InteractionMode::AtLower));
-                let effort = sample.effort(number).expect("two interactions");
+            for contact in handles {
+                assert_eq!(sample.mode(contact), Ok(InteractionMode::AtLower));
+                let effort = sample.effort(contact).expect("two interactions");
                 assert!((effort - GRAVITY).abs() < 1e-11, "{effort}");
             }
             assert!((sample.position(h.rod).z - 1.0).abs() < 1e-12);

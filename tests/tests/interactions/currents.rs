@@ -27,13 +27,15 @@ fn standing(time: f64) -> f64 {
 
 fn is_held<C: Coordinates<Motor>>() {
     let (motor, h) = (Motor::default(), Motor::HANDLES);
+    let brakes = [Interaction::brake(h.shaft.angle(), 100.0)];
+    let [brake] = Interaction::handles(&brakes);
     Simulation::new(&motor, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
-        .interactions([Interaction::brake(h.shaft.angle(), 100.0)])
+        .interactions(brakes)
         .run(0.0..=0.03, every(0.001), |sample| {
             let (found, expected) = (sample.state_value(h.current), standing(sample.time()));
             assert!((found - expected).abs() < 1e-10, "{found} {expected}");
-            let effort = sample.effort(0).expect("one interaction");
+            let effort = sample.effort(brake).expect("one interaction");
             assert!((effort + 0.5 * expected).abs() < 1e-10, "{effort}");
         })
         .expect("it stands");
@@ -49,11 +51,13 @@ fn a_brake_leaves_the_current_of_a_motor_alone() {
 #[test]
 fn a_brake_slips_when_the_current_is_there() {
     let (motor, h) = (Motor::default(), Motor::HANDLES);
+    let brakes = [Interaction::brake(h.shaft.angle(), 2.0)];
+    let [brake] = Interaction::handles(&brakes);
     let mut slipped = None;
     Simulation::new(&motor, StandardLagrange, DormandPrince::new(tight()))
-        .interactions([Interaction::brake(h.shaft.angle(), 2.0)])
+        .interactions(brakes)
         .run(0.0..=0.01, every(0.001), |sample| {
-            if sample.mode(0) == Ok(InteractionMode::SlidingUp) {
+            if sample.mode(brake) == Ok(InteractionMode::SlidingUp) {
                 slipped.get_or_insert((sample.time(), sample.state_value(h.current)));
             }
         })

@@ -115,8 +115,8 @@ fn limits_of_the_description_are_interactions() {
     assert!(view.displacement(h.rail) < -30.0);
 }
 
-/// What a run is given stands before the limits of the description. Limits of the same quantity
-/// take their place, and everything may be said in any order.
+/// What a run is given acts beside the limits of the description. Limits of the same quantity take
+/// their place, and their handle is of those that hold. Everything may be said in any order.
 #[test]
 fn interactions_of_a_run_stand_beside_limits_of_the_description() {
     let (shaft, h) = (shaft(), Shaft::HANDLES);
@@ -128,22 +128,30 @@ fn interactions_of_a_run_stand_beside_limits_of_the_description() {
         let view = shaft.view(report.time, &report.state).expect("acceptable");
         (view.displacement(h.rail), view.displacement_rate(h.rail))
     };
+    let handle = rail.limits();
     let (to, often) = (0.0..=2.0, every(0.1));
+    let mut last = None;
     let beside = simulation().interactions([friction]);
     let beside = beside.run(to.clone(), often, |sample| {
-        assert!(sample.impact(1).is_ok() && sample.impact(2).is_err());
+        last = sample.impact(handle).expect("it has limits");
     });
     let beside = end(beside.expect("it rubs and bounces"));
-    let listed = simulation().interactions([friction, own]);
-    let listed = listed.run(to.clone(), often, |sample| {
-        assert_eq!(sample.impact(2), Ok(None), "the list has taken its place");
+    assert!(last.is_some());
+    let list = [friction, own];
+    let [_, listed] = Interaction::handles(&list);
+    let mut last_listed = None;
+    let run = simulation().interactions(list);
+    let run = run.run(to.clone(), often, |sample| {
+        last_listed = sample.impact(listed).expect("it is in the list");
+        assert_eq!(sample.impact(handle), Ok(last_listed), "it is the list's");
     });
-    assert_eq!(end(listed.expect("it rubs and bounces")), beside);
-    let alone = simulation().without_limits().interactions([friction, own]);
-    assert_eq!(
-        end(alone.run(to.clone(), often, |_| ()).expect("it bounces")),
-        beside
-    );
+    assert_eq!(end(run.expect("it rubs and bounces")), beside);
+    assert_eq!(last_listed, last);
+    let alone = simulation().without_limits().interactions(list);
+    let alone = alone.run(to.clone(), often, |sample| {
+        assert_eq!(sample.impact(handle), sample.impact(listed));
+    });
+    assert_eq!(end(alone.expect("it bounces")), beside);
     let mut late = simulation()
         .on(
             "top",
@@ -295,11 +303,12 @@ fn a_screw_stops_by_its_angle<C: Coordinates<Nut>>() {
     let lead = 0.1 / TAU;
     let acceleration = 2.0 * GRAVITY * lead / (2.0 * lead * lead + 0.02);
     let wanted = (2.0 * 2.0 * TAU / acceleration).sqrt();
+    let stop = h.thread.angle().limits();
     let mut first = None;
     Simulation::new(&nut, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
         .run(0.0..=4.0, every(0.05), |sample| {
-            if let Some(impact) = sample.impact(0).expect("one") {
+            if let Some(impact) = sample.impact(stop).expect("one") {
                 first.get_or_insert(impact);
             }
             let height = sample.displacement(h.thread);
@@ -344,7 +353,10 @@ fn elements_of_arrays_have_limits_of_their_own() {
             for (least, hinge) in least.iter_mut().zip(h.hinges) {
                 *least = least.min(sample.angle(hinge));
             }
-            assert!(sample.mode(1).is_ok() && sample.mode(2).is_err());
+            let [first, second] = h.hinges.map(|hinge| sample.mode(hinge.angle().limits()));
+            assert!(first.is_ok() && second.is_ok());
+            let fault = Fault::NoSuchLimits { joint: "root" };
+            assert_eq!(sample.mode(h.root.angle().limits()), Err(fault));
         })
         .expect("it swings");
     assert!(report.warnings().is_empty(), "{}", report.warnings());
@@ -385,8 +397,9 @@ fn parts_and_their_mirror_images_have_limits() {
     let mut last = [0.0; 2];
     bird.simulation(StandardLagrange, DormandPrince::default())
         .run(0.0..=2.0, every(0.1), |sample| {
-            last = [h.left.hinge, h.right.hinge].map(|hinge| sample.angle(hinge));
-            let modes = [0, 1].map(|number| sample.mode(number).expect("two"));
+            let hinges = [h.left.hinge, h.right.hinge];
+            last = hinges.map(|hinge| sample.angle(hinge));
+            let modes = hinges.map(|hinge| sample.mode(hinge.angle().limits()).expect("two"));
             let is_still = modes == [InteractionMode::AtLower; 2];
             assert!(is_still || sample.time() < 1.0, "{modes:?}");
         })

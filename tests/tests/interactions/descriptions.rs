@@ -17,15 +17,17 @@ fn course<C: Coordinates<Arm>, F: Formulation<f64>>(
         .expect("it is free");
     arm.set_angle_rate(&mut start, h.elbow, -3.0)
         .expect("it is free");
+    let interactions = [
+        Interaction::limits(h.elbow.angle(), [-0.5, 0.8]).restitution(0.5),
+        Interaction::friction(h.elbow.angle(), 0.4).stiction(0.5),
+        Interaction::friction(h.shoulder.angle(), 1.5),
+    ];
+    let handles = Interaction::handles(&interactions);
     let mut course = Vec::new();
     let report = Simulation::new(&arm, formulation, DormandPrince::new(tight()))
         .coordinates::<C>()
         .initial_state(start)
-        .interactions([
-            Interaction::limits(h.elbow.angle(), [-0.5, 0.8]).restitution(0.5),
-            Interaction::friction(h.elbow.angle(), 0.4).stiction(0.5),
-            Interaction::friction(h.shoulder.angle(), 1.5),
-        ])
+        .interactions(interactions)
         .run(0.0..=10.0, every(0.1), |sample| {
             let readings = [
                 sample.angle(h.shoulder),
@@ -33,7 +35,7 @@ fn course<C: Coordinates<Arm>, F: Formulation<f64>>(
                 sample.angle_rate(h.shoulder),
                 sample.angle_rate(h.elbow),
             ];
-            let modes = [0, 1, 2].map(|number| sample.mode(number).expect("three"));
+            let modes = handles.map(|handle| sample.mode(handle).expect("three"));
             course.push((readings, modes));
         })
         .expect("it moves");
@@ -78,40 +80,41 @@ fn shifts<C: Coordinates<Gearbox>>() {
     let (mut gearbox, h) = (Gearbox::default(), Gearbox::HANDLES);
     (gearbox.torque, gearbox.load) = (3.0, 1.0);
     // The first clutch drives the output at a third of the motor's rate, the second at its rate.
-    let [low, high] = [3.0, 1.0].map(|ratio| {
+    let clutches = [3.0, 1.0].map(|ratio| {
         let (motor, output) = (h.input_shaft.angle(), h.output_shaft.angle());
         Interaction::clutch(motor, output, ratio, 20.0).released()
     });
+    let [low, high] = Interaction::handles(&clutches);
     let (motor, output) = (0.02, 0.1);
     // The motor alone, then both in the low gear, after a time of slip.
     let idle = 3.0 / motor * 0.2;
     let modes = |sample: &Sample<'_, f64, Gearbox>| {
-        [0, 1].map(|number| sample.mode(number).expect("two clutches"))
+        [low, high].map(|clutch| sample.mode(clutch).expect("two clutches"))
     };
     let mut all = Vec::new();
     let report = Simulation::new(&gearbox, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
-        .interactions([low, high])
+        .interactions(clutches)
         .on(
             "low",
             Crossing::Rising,
             |s| s.time() - 0.2,
-            |event| event.engage(0),
+            |event| event.engage(low),
         )
         .on(
             "high",
             Crossing::Rising,
             |s| s.time() - 1.0,
             |event| {
-                event.release(0)?;
-                event.engage(1)
+                event.release(low)?;
+                event.engage(high)
             },
         )
         .on(
             "both",
             Crossing::Rising,
             |s| s.time() - 2.0,
-            |event| event.engage(0),
+            |event| event.engage(low),
         )
         .run(0.0..=3.0, every(0.01), |sample| {
             let now = modes(sample);
@@ -130,7 +133,7 @@ fn shifts<C: Coordinates<Gearbox>>() {
                     (found - acceleration).abs() < 1e-9,
                     "{found} {acceleration}"
                 );
-                let effort = sample.effort(0).expect("two clutches");
+                let effort = sample.effort(low).expect("two clutches");
                 assert!(
                     (effort - (motor * acceleration - 3.0)).abs() < 1e-9,
                     "{effort}"

@@ -2,6 +2,7 @@
 
 use holonom::GeneralizedAlpha;
 use holonom::prelude::*;
+use holonom::run::InteractionHandle;
 
 use super::Ball;
 
@@ -70,24 +71,59 @@ fn breaks_are_finite() {
 }
 
 #[test]
-fn a_number_that_is_not_there_is_refused() {
+fn handles_of_what_is_not_there_are_refused() {
     let (ball, rail) = (Ball::default(), Ball::HANDLES.rail.displacement());
-    let run = ball
-        .simulation(StandardLagrange, DormandPrince::default())
-        .interactions([Interaction::brake(rail, 1.0)])
-        .on(
-            "late",
-            Crossing::Rising,
-            |s| s.time() - 0.5,
-            |event| event.engage(1),
-        )
-        .run(0.0..=1.0, every(0.1), |_| ());
-    let fault = run.expect_err("there is one").fault;
-    let wanted = Fault::NoSuchInteraction {
+    let brake = Interaction::brake(rail, 1.0);
+    let stop = Interaction::limits(rail, [-9.0, 9.0]);
+    let [first, second] = Interaction::handles(&[brake, brake]);
+    assert_ne!(first, second);
+    let engaged = |interaction: Interaction<f64, Ball>, handle: InteractionHandle<Ball>| {
+        let run = ball
+            .simulation(StandardLagrange, DormandPrince::default())
+            .interactions([interaction])
+            .on(
+                "late",
+                Crossing::Rising,
+                |s| s.time() - 0.5,
+                |event| event.engage(handle),
+            )
+            .run(0.0..=1.0, every(0.1), |_| ());
+        run.map(|_| ()).map_err(|error| error.fault)
+    };
+    assert_eq!(engaged(brake, first), Ok(()));
+    let another = Fault::NoSuchInteraction {
         number: 1,
         interactions: 1,
     };
-    assert_eq!(fault, wanted);
+    assert_eq!(engaged(brake, second), Err(another));
+    let no_limits = Fault::NoSuchLimits { joint: "rail" };
+    assert_eq!(engaged(brake, rail.limits()), Err(no_limits));
+    // A stop is neither engaged nor released.
+    let misplaced = Fault::MisplacedSetting {
+        joint: "rail",
+        setting: "engage",
+    };
+    let [listed] = Interaction::handles(&[stop]);
+    for handle in [listed, rail.limits()] {
+        assert_eq!(engaged(stop, handle), Err(misplaced));
+    }
+    // At the place of the handle is another interaction.
+    let other = Fault::NoSuchInteraction {
+        number: 0,
+        interactions: 1,
+    };
+    assert_eq!(engaged(stop, first), Err(other));
+    assert_eq!(engaged(brake, listed), Err(other));
+    let mut stepper = ball
+        .stepper(StandardLagrange, Rk4)
+        .expect("sound parameters")
+        .interactions([stop]);
+    let misplaced = Fault::MisplacedSetting {
+        joint: "rail",
+        setting: "release",
+    };
+    assert_eq!(stepper.release(rail.limits()), Err(misplaced));
+    assert_eq!(stepper.engage(second), Err(another));
 }
 
 #[test]

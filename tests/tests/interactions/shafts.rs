@@ -23,12 +23,14 @@ fn moving(arm: &Arm, rates: [f64; 2]) -> StateOf<Arm> {
 fn locks<C: Coordinates<Arm>>() {
     let (arm, h) = (Arm::default(), Arm::HANDLES);
     let rates = [1.0, -2.5];
+    let interactions = [Interaction::brake(h.elbow.angle(), f64::INFINITY).released()];
+    let [dog] = Interaction::handles(&interactions);
     let seen = Cell::new([0.0; 2]);
     let mut lost = None;
     Simulation::new(&arm, StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
         .initial_state(moving(&arm, rates))
-        .interactions([Interaction::brake(h.elbow.angle(), f64::INFINITY).released()])
+        .interactions(interactions)
         .on(
             "lock",
             Crossing::Rising,
@@ -45,18 +47,18 @@ fn locks<C: Coordinates<Arm>>() {
                 assert!((before - event.kinetic_energy()).abs() < 1e-12 * before);
                 let after = w + b / a * r;
                 seen.set([0.5 * a * after * after, after]);
-                event.engage(0)
+                event.engage(dog)
             },
         )
         .run(0.0..=1.0, every(0.1), |sample| {
-            if let Some(impact) = sample.impact(0).expect("one interaction") {
+            if let Some(impact) = sample.impact(dog).expect("one interaction") {
                 let energy = sample.kinetic_energy();
                 assert!(
                     (energy / seen.get()[0] - 1.0).abs() < 1e-12,
                     "{energy} {}",
                     seen.get()[0]
                 );
-                assert_eq!(sample.mode(0), Ok(InteractionMode::Sticking));
+                assert_eq!(sample.mode(dog), Ok(InteractionMode::Sticking));
                 assert!(sample.angle_rate(h.elbow).abs() < 1e-14);
                 lost.get_or_insert(impact.lost_energy);
                 assert!(impact.lost_energy > 0.0);
@@ -85,6 +87,7 @@ fn stays<C: Coordinates<Gearbox>>() {
         Interaction::friction(h.input_shaft.angle(), 2.4).stiction(3.7),
         Interaction::limits(h.output_shaft.angle(), [-1.0, 1.0]).restitution(0.5),
     ];
+    let [friction, _] = Interaction::handles(&interactions);
     let mut events = 0;
     gearbox
         .simulation(StandardLagrange, DormandPrince::new(tight()))
@@ -97,7 +100,7 @@ fn stays<C: Coordinates<Gearbox>>() {
             |_| events += 1,
         )
         .run(0.0..=2.0, every(0.1), |sample| {
-            assert_eq!(sample.mode(0), Ok(InteractionMode::Sticking));
+            assert_eq!(sample.mode(friction), Ok(InteractionMode::Sticking));
             assert!(sample.angle(h.input_shaft).abs() < 1e-12);
         })
         .expect("it runs");
@@ -110,7 +113,7 @@ fn stays<C: Coordinates<Gearbox>>() {
     let mut state = stepper.initial_state().expect("a state");
     for _ in 0..500 {
         stepper.step(&mut state, 2e-3).expect("it steps");
-        assert_eq!(stepper.mode(0), Ok(InteractionMode::Sticking));
+        assert_eq!(stepper.mode(friction), Ok(InteractionMode::Sticking));
     }
     let bodies = stepper.bodies(&state);
     let angle = stepper.view(&bodies).angle(h.input_shaft);
@@ -136,6 +139,7 @@ fn sticks_once_the_brake_slides<C: Coordinates<Gearbox>>() {
         Interaction::clutch(h.input_shaft.angle(), h.output_shaft.angle(), 1.0, 0.45),
         Interaction::brake(h.input_shaft.angle(), 0.2).stiction(0.5),
     ];
+    let [clutch, brake] = Interaction::handles(&interactions);
     let wanted = -0.1 * 6.8 / 0.12;
     let report = gearbox
         .simulation(StandardLagrange, DormandPrince::new(tight()))
@@ -152,8 +156,8 @@ fn sticks_once_the_brake_slides<C: Coordinates<Gearbox>>() {
     for _ in 0..100 {
         stepper.step(&mut state, 1e-3).expect("it steps");
     }
-    assert_eq!(stepper.mode(0), Ok(InteractionMode::Sticking));
-    assert_eq!(stepper.mode(1), Ok(InteractionMode::SlidingDown));
+    assert_eq!(stepper.mode(clutch), Ok(InteractionMode::Sticking));
+    assert_eq!(stepper.mode(brake), Ok(InteractionMode::SlidingDown));
     for bodies in [report.state, stepper.bodies(&state)] {
         let view = stepper.view(&bodies);
         for shaft in [h.input_shaft, h.output_shaft] {

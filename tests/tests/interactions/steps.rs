@@ -14,10 +14,12 @@ fn steps_swing_between_lines_of_friction() {
     block
         .set_displacement(&mut start, h.slide, 0.1)
         .expect("it is free");
+    let frictions = [Interaction::friction(h.slide.displacement(), capacity)];
+    let [friction] = Interaction::handles(&frictions);
     let mut stepper = block
         .stepper(StandardLagrange, Rk4)
         .expect("it is prepared")
-        .interactions([Interaction::friction(h.slide.displacement(), capacity)]);
+        .interactions(frictions);
     let mut state = stepper.state_of(&start).expect("a state");
     let half = core::f64::consts::PI / (stiffness / mass).sqrt();
     for step in 1..=1000 {
@@ -36,21 +38,23 @@ fn steps_swing_between_lines_of_friction() {
         let x = stepper.view(&bodies).displacement(h.slide);
         assert!((x - wanted).abs() < 1e-9, "{time} {x} {wanted}");
     }
-    assert_eq!(stepper.mode(0), Ok(InteractionMode::Sticking));
-    let effort = stepper.effort(0, &state).expect("one interaction");
+    assert_eq!(stepper.mode(friction), Ok(InteractionMode::Sticking));
+    let effort = stepper.effort(friction, &state).expect("one interaction");
     assert!((effort + stiffness * 0.01).abs() < 1e-7, "{effort}");
 }
 
 #[test]
 fn a_brake_holds_between_steps_and_lets_go() {
     let (rod, h) = (Rod::default(), Rod::HANDLES);
+    let interactions = [
+        Interaction::brake(h.hinge.angle(), 12.0),
+        Interaction::limits(h.hinge.angle(), [-1.0, 1.0]).restitution(0.3),
+    ];
+    let [brake, stop] = Interaction::handles(&interactions);
     let mut stepper = rod
         .stepper(StandardLagrange, Rk4)
         .expect("it is prepared")
-        .interactions([
-            Interaction::brake(h.hinge.angle(), 12.0),
-            Interaction::limits(h.hinge.angle(), [-1.0, 1.0]).restitution(0.3),
-        ]);
+        .interactions(interactions);
     let mut state = stepper.initial_state().expect("a state");
     let angle = |bodies: &StateOf<Rod>| {
         let view = rod.view(0.0, bodies).expect("a view");
@@ -61,17 +65,17 @@ fn a_brake_holds_between_steps_and_lets_go() {
         stepper.step(&mut state, 1e-2).expect("it steps");
     }
     assert!(angle(&stepper.bodies(&state)).abs() < 1e-30);
-    let effort = stepper.effort(0, &state).expect("two interactions");
+    let effort = stepper.effort(brake, &state).expect("two interactions");
     assert!((effort - GRAVITY).abs() < 1e-12, "{effort}");
-    stepper.release(0).expect("two interactions");
+    stepper.release(brake).expect("two interactions");
     for _ in 0..400 {
         stepper.step(&mut state, 1e-2).expect("it steps");
         assert!(angle(&stepper.bodies(&state)) > -1.0 - 1e-9);
     }
-    assert_eq!(stepper.mode(1), Ok(InteractionMode::AtLower));
+    assert_eq!(stepper.mode(stop), Ok(InteractionMode::AtLower));
     assert!((angle(&stepper.bodies(&state)) + 1.0).abs() < 1e-12);
     let impact = stepper
-        .impact(1)
+        .impact(stop)
         .expect("two interactions")
         .expect("it met it");
     let [before, after] = impact.rates;

@@ -16,15 +16,17 @@ fn block(push: f64) -> Block {
 #[test]
 fn a_mode_that_a_controller_ends_is_shown_when_it_ends() {
     let (block, h) = (block(5.0), Block::HANDLES);
+    let frictions = [Interaction::friction(h.slide.displacement(), 10.0)];
+    let [friction] = Interaction::handles(&frictions);
     let mut loose = None;
     block
         .simulation(StandardLagrange, DormandPrince::default())
-        .interactions([Interaction::friction(h.slide.displacement(), 10.0)])
+        .interactions(frictions)
         .every_period(1.25, |sample, inputs| {
             inputs.push = if sample.time() > 1.0 { 15.0 } else { 5.0 };
         })
         .run(0.0..=2.1, every(0.7), |sample| {
-            if sample.mode(0) != Ok(Sticking) && loose.is_none() {
+            if sample.mode(friction) != Ok(Sticking) && loose.is_none() {
                 loose = Some(sample.time());
             }
         })
@@ -38,16 +40,20 @@ fn friction_beside_a_stop_sticks_at_its_capacity() {
     let (block, h) = (block(20.0), Block::HANDLES);
     let slide = h.slide.displacement();
     for restitution in [0.0, 0.5] {
-        let stop = Interaction::limits(slide, [-1.0, 0.5]).restitution(restitution);
-        let friction = Interaction::friction(slide, 6.0);
+        let interactions = [
+            Interaction::limits(slide, [-1.0, 0.5]).restitution(restitution),
+            Interaction::friction(slide, 6.0),
+        ];
+        let handles = Interaction::handles(&interactions);
         block
             .simulation(StandardLagrange, DormandPrince::default())
-            .interactions([stop, friction])
+            .interactions(interactions)
             .run(0.0..=4.0, every(1.0), |sample| -> Result<(), Fault> {
-                let modes = [sample.mode(0)?, sample.mode(1)?];
+                let [stop, friction] = handles;
+                let modes = [sample.mode(stop)?, sample.mode(friction)?];
                 if sample.time() > 3.5 {
                     assert_eq!(modes, [AtUpper, Sticking]);
-                    let efforts = [sample.effort(0)?, sample.effort(1)?];
+                    let efforts = [sample.effort(stop)?, sample.effort(friction)?];
                     assert!(
                         (efforts[0] + efforts[1] + 20.0).abs() < 1e-12,
                         "{efforts:?}"

@@ -40,7 +40,9 @@ fn struck<C: Coordinates<Gearbox>>(
         .initial_state(state)
         .interactions([Interaction::limits(shaft.angle(), limits)])
         .run(from..=to, every(0.3), |sample| {
-            let impact = sample.impact(0).expect("one interaction");
+            let impact = sample
+                .impact(shaft.angle().limits())
+                .expect("one interaction");
             first.set(first.get().or(impact.map(|impact| impact.time)));
         })
         .expect("it turns");

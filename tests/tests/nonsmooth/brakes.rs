@@ -44,11 +44,13 @@ fn kinetic([first, mixed, second]: [f64; 3], [shoulder, elbow]: [f64; 2]) -> f64
 fn locked<C: Coordinates<Arm>>(end: f64) -> f64 {
     let (arm, h) = (Arm::default(), Arm::HANDLES);
     let before = Cell::new([0.0; 3]);
+    let interactions = [Interaction::brake(h.elbow.angle(), f64::INFINITY).released()];
+    let [brake] = Interaction::handles(&interactions);
     let mut checked = 0;
     let report = arm
         .simulation(StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
-        .interactions([Interaction::brake(h.elbow.angle(), f64::INFINITY).released()])
+        .interactions(interactions)
         .on(
             "lock",
             Crossing::Rising,
@@ -56,7 +58,7 @@ fn locked<C: Coordinates<Arm>>(end: f64) -> f64 {
             |event| {
                 let rates = [event.angle_rate(h.shoulder), event.angle_rate(h.elbow)];
                 before.set([event.angle(h.elbow), rates[0], rates[1]]);
-                event.engage(0)
+                event.engage(brake)
             },
         )
         .on(
@@ -67,14 +69,14 @@ fn locked<C: Coordinates<Arm>>(end: f64) -> f64 {
         )
         .run(0.0..=end, every(0.05), |sample| -> Result<(), Fault> {
             let elbow_rate = sample.angle_rate(h.elbow);
-            if sample.mode(0)? != Mode::Sticking {
+            if sample.mode(brake)? != Mode::Sticking {
                 assert!(sample.time() <= 0.4);
                 return Ok(());
             }
             assert!(elbow_rate.abs() < 1e-12, "{elbow_rate:e}");
             let [elbow, rates @ ..] = before.get();
             assert!((sample.angle(h.elbow) - elbow).abs() < 1e-12);
-            let impact = sample.impact(0)?.expect("it was stopped");
+            let impact = sample.impact(brake)?.expect("it was stopped");
             assert!((impact.rates[0] / rates[1] - 1.0).abs() < 1e-13);
             assert!(impact.rates[1].abs() < 1e-13);
             let matrix = mass(elbow);
@@ -155,38 +157,40 @@ fn gears<C: Coordinates<GearBox>>(capacity: f64) -> Vec<(f64, [f64; 2], [Mode; 2
     let (gears, h) = (GearBox::default(), GearBox::HANDLES);
     let clutch =
         |ratio| Interaction::clutch(h.first.angle(), h.second.angle(), ratio, capacity).released();
+    let clutches = [clutch(2.0), clutch(3.0)];
+    let [high, low] = Interaction::handles(&clutches);
     let mut seen = Vec::new();
     gears
         .simulation(StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
-        .interactions([clutch(2.0), clutch(3.0)])
+        .interactions(clutches)
         .on(
             "low",
             Crossing::Rising,
             |s| s.time() - 1.0,
-            |event| event.engage(1),
+            |event| event.engage(low),
         )
         .on(
             "high",
             Crossing::Rising,
             |s| s.time() - 2.0,
-            |event| event.release(1).and_then(|()| event.engage(0)),
+            |event| event.release(low).and_then(|()| event.engage(high)),
         )
         .on(
             "both",
             Crossing::Rising,
             |s| s.time() - 3.0,
-            |event| event.engage(1),
+            |event| event.engage(low),
         )
         .on(
             "neutral",
             Crossing::Rising,
             |s| s.time() - 4.0,
-            |event| event.release(0).and_then(|()| event.release(1)),
+            |event| event.release(high).and_then(|()| event.release(low)),
         )
         .run(0.0..=5.0, every(0.5), |sample| -> Result<(), Fault> {
             let rates = [sample.angle_rate(h.first), sample.angle_rate(h.second)];
-            let modes = [sample.mode(0)?, sample.mode(1)?];
+            let modes = [sample.mode(high)?, sample.mode(low)?];
             seen.push((sample.time(), rates, modes));
             Ok(())
         })

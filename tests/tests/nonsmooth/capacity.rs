@@ -115,14 +115,13 @@ fn frictions_add_and_a_touch_is_no_impact() {
     let wanted = -(GRAVITY - 7.0) * (1.0 - up);
     assert!((found - wanted).abs() < 1e-11, "{found} {wanted}");
     // 12 N do.
+    let frictions = [7.0, 5.0].map(|capacity| Interaction::friction(rail, capacity));
+    let [first, second] = Interaction::handles(&frictions);
     let mut efforts = [0.0; 2];
     ball.simulation(StandardLagrange, DormandPrince::new(tight()))
-        .interactions([
-            Interaction::friction(rail, 7.0),
-            Interaction::friction(rail, 5.0),
-        ])
+        .interactions(frictions)
         .run(0.0..=1.0, every(1.0), |sample| -> Result<(), Fault> {
-            efforts = [sample.effort(0)?, sample.effort(1)?];
+            efforts = [sample.effort(first)?, sample.effort(second)?];
             assert!(sample.time() == 0.0 || sample.displacement_rate(h.rail).abs() < 1e-14);
             Ok(())
         })
@@ -157,11 +156,17 @@ fn frictions_add_and_a_touch_is_no_impact() {
 #[test]
 fn a_change_of_modes_is_reported_before_and_after() {
     let (ball, h) = (Ball::default(), Ball::HANDLES);
+    let frictions = [Interaction::friction(h.rail.displacement(), 20.0)];
+    let [friction] = Interaction::handles(&frictions);
     let mut reports = Vec::new();
     ball.simulation(StandardLagrange, DormandPrince::new(tight()))
-        .interactions([Interaction::friction(h.rail.displacement(), 20.0)])
+        .interactions(frictions)
         .run(0.0..=0.5, every(0.5), |sample| -> Result<(), Fault> {
-            reports.push((sample.time(), sample.mode(0)?, sample.effort(0)?));
+            reports.push((
+                sample.time(),
+                sample.mode(friction)?,
+                sample.effort(friction)?,
+            ));
             Ok(())
         })
         .expect("it rises and stays");
@@ -201,13 +206,15 @@ struct Table {
 fn a_table_stands_on_four_legs() {
     let (table, h) = (Table::default(), Table::HANDLES);
     let floor = Plane::on_ground([0.0; 3], [0.0, 0.0, 1.0]);
+    let legs = [h.a, h.b, h.c, h.d].map(|leg| Interaction::contact(leg, floor));
+    let handles = Interaction::handles(&legs);
     let mut efforts = [0.0; 4];
     let report = table
         .simulation(StandardLagrange, DormandPrince::new(tight()))
-        .interactions([h.a, h.b, h.c, h.d].map(|leg| Interaction::contact(leg, floor)))
+        .interactions(legs)
         .run(0.0..=2.0, every(0.1), |sample| -> Result<(), Fault> {
-            for (number, effort) in efforts.iter_mut().enumerate() {
-                *effort = sample.effort(number)?;
+            for (leg, effort) in handles.into_iter().zip(&mut efforts) {
+                *effort = sample.effort(leg)?;
             }
             Ok(())
         })

@@ -18,6 +18,7 @@ struct Seen {
 
 fn runs<C: Coordinates<Clock>>(start: StateOf<Clock>, end: f64) -> Seen {
     let (clock, h) = (Clock::default(), Clock::HANDLES);
+    let [_, dog] = Clock::interaction_handles();
     let (beats, teeth, turns) = (RefCell::default(), RefCell::default(), RefCell::default());
     let beats: RefCell<Vec<f64>> = beats;
     let turns: RefCell<Vec<f64>> = turns;
@@ -52,7 +53,7 @@ fn runs<C: Coordinates<Clock>>(start: StateOf<Clock>, end: f64) -> Seen {
             |event| turns.borrow_mut().push(event.angle(h.pivot)),
         )
         .run(0.0..=end, every(0.05), |sample| -> Result<(), Fault> {
-            if sample.mode(1)? == Mode::Sticking {
+            if sample.mode(dog)? == Mode::Sticking {
                 assert!(sample.angle_rate(h.arbor).abs() < 1e-12);
                 assert!(Clock::tooth(sample.angle(h.arbor)).abs() < 1e-9);
             }

@@ -41,6 +41,7 @@ fn let_go<C: Coordinates<Cradle>>(
     if is_reversed {
         limits.reverse();
     }
+    let gaps = Interaction::handles(&limits);
     let mut times = Vec::new();
     let mut energy = None;
     let report = cradle
@@ -49,8 +50,8 @@ fn let_go<C: Coordinates<Cradle>>(
         .initial_state(start)
         .interactions(limits)
         .run(0.0..=end, every(1e-3), |sample| -> Result<(), Fault> {
-            for number in 0..4 {
-                if let Some(impact) = sample.impact(number)? {
+            for gap in gaps {
+                if let Some(impact) = sample.impact(gap)? {
                     times.push(impact.time);
                 }
             }

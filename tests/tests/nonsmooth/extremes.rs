@@ -47,10 +47,12 @@ fn falls<C: Coordinates<Ball>>(mass: f64, from: f64, restitution: f64) {
     let fall = (2.0 * from / GRAVITY).sqrt();
     let tolerance = Tolerance::of(&ball, 1e-12).expect("sizes");
     let floor = Interaction::limits(h.rail.displacement(), [-from, f64::INFINITY]);
+    let interactions = [floor.restitution(restitution)];
+    let [floor] = Interaction::handles(&interactions);
     let mut count = 0;
     ball.simulation(StandardLagrange, DormandPrince::new(tolerance))
         .coordinates::<C>()
-        .interactions([floor.restitution(restitution)])
+        .interactions(interactions)
         .run(
             0.0..=4.3 * fall,
             every(0.1 * fall),
@@ -64,9 +66,12 @@ fn falls<C: Coordinates<Ball>>(mass: f64, from: f64, restitution: f64) {
                     sample.time()
                 );
                 if restitution == 0.0 && sample.time() > 1.05 * fall {
-                    assert_eq!(sample.mode(0)?, Mode::AtLower, "{what}");
+                    assert_eq!(sample.mode(floor)?, Mode::AtLower, "{what}");
                     let weight = mass * GRAVITY;
-                    assert!((sample.effort(0)? / weight - 1.0).abs() < 1e-12, "{what}");
+                    assert!(
+                        (sample.effort(floor)? / weight - 1.0).abs() < 1e-12,
+                        "{what}"
+                    );
                     count += 1;
                 }
                 Ok(())
@@ -155,14 +160,14 @@ fn a_start_on_the_stop_with_a_rate_into_it_is_an_impact() {
         let mut start = ball.described_state().expect("described");
         ball.set_displacement_rate(&mut start, h.rail, -3.0)
             .expect("free");
+        let stop = Interaction::limits(h.rail.displacement(), [0.0, 9.0]).restitution(restitution);
+        let [handle] = Interaction::handles(&[stop]);
         let mut first = None;
         ball.simulation(StandardLagrange, DormandPrince::new(super::tight()))
             .initial_state(start)
-            .interactions([
-                Interaction::limits(h.rail.displacement(), [0.0, 9.0]).restitution(restitution)
-            ])
+            .interactions([stop])
             .run(0.0..=0.1, every(0.1), |sample| -> Result<(), Fault> {
-                let impact = sample.impact(0)?;
+                let impact = sample.impact(handle)?;
                 if let Some(impact) = impact {
                     first.get_or_insert(impact);
                 }
@@ -209,11 +214,13 @@ fn two_stops_at_one_place() {
             "{restitutions:?}: {found} {wanted}"
         );
     }
+    let stops = [stop(0.0), stop(0.0)];
+    let [first, second] = Interaction::handles(&stops);
     let mut efforts = [0.0; 2];
     ball.simulation(StandardLagrange, DormandPrince::new(super::tight()))
-        .interactions([stop(0.0), stop(0.0)])
+        .interactions(stops)
         .run(0.0..=2.0, every(1.0), |sample| -> Result<(), Fault> {
-            efforts = [sample.effort(0)?, sample.effort(1)?];
+            efforts = [sample.effort(first)?, sample.effort(second)?];
             Ok(())
         })
         .expect("it lies there");
@@ -253,6 +260,7 @@ fn met_at_once<C: Coordinates<Two>>(rate: f64, wanted: [f64; 2], impulses: [f64;
         if is_reversed {
             limits.reverse();
         }
+        let handles = Interaction::handles(&limits);
         let mut found = [0.0; 2];
         let report = two
             .simulation(StandardLagrange, DormandPrince::new(super::tight()))
@@ -260,9 +268,9 @@ fn met_at_once<C: Coordinates<Two>>(rate: f64, wanted: [f64; 2], impulses: [f64;
             .initial_state(start)
             .interactions(limits)
             .run(0.0..=1.5, every(0.5), |sample| -> Result<(), Fault> {
-                for number in 0..2 {
+                for (number, limits) in handles.into_iter().enumerate() {
                     let place = if is_reversed { 1 - number } else { number };
-                    if let Some(impact) = sample.impact(number)? {
+                    if let Some(impact) = sample.impact(limits)? {
                         assert!((impact.time - 1.0).abs() < 1e-12);
                         found[place] = impact.impulse;
                     }
@@ -306,6 +314,7 @@ struct Rotor {
 
 fn no_stop_is_passed<C: Coordinates<Rotor>>(stop: f64) {
     let (rotor, h) = (Rotor::default(), Rotor::HANDLES);
+    let stops = h.hinge.angle().limits();
     let mut hits = 0;
     rotor
         .simulation(StandardLagrange, DormandPrince::default())
@@ -325,7 +334,7 @@ fn no_stop_is_passed<C: Coordinates<Rotor>>(stop: f64) {
                 "{stop}: {found} {wanted} {}",
                 sample.time()
             );
-            hits += usize::from(sample.impact(0)?.is_some());
+            hits += usize::from(sample.impact(stops)?.is_some());
             Ok(())
         })
         .unwrap_or_else(|error| panic!("{stop}: {error}"));
@@ -366,6 +375,7 @@ fn a_rate_that_grows_within_a_step_passes_no_stop() {
         let (driven, h) = (Driven::default(), Driven::HANDLES);
         // It comes back to where it began, at rest.
         let half = (2.0_f64 * stop / 1000.0).sqrt();
+        let stops = h.hinge.angle().limits();
         let mut hits = 0;
         driven
             .simulation(StandardLagrange, DormandPrince::default())
@@ -377,7 +387,11 @@ fn a_rate_that_grows_within_a_step_passes_no_stop() {
                 let error = sample.angle(h.hinge) - 500.0 * since * since;
                 let error = (error + 0.5 * turn).rem_euclid(turn) - 0.5 * turn;
                 assert!(error.abs() < 1e-6, "{stop}: {error} at {}", sample.time());
-                hits += usize::from(sample.impact(0)?.is_some_and(|i| i.time == sample.time()));
+                hits += usize::from(
+                    sample
+                        .impact(stops)?
+                        .is_some_and(|i| i.time == sample.time()),
+                );
                 Ok(())
             })
             .unwrap_or_else(|error| panic!("{stop}: {error}"));

@@ -37,17 +37,19 @@ where
 {
     let (wedge, h) = (Wedge::default(), Wedge::HANDLES);
     let mut last = (0.0, 0.0, Mode::Released);
+    let interactions = [Interaction::friction(h.incline.displacement(), capacity)];
+    let [friction] = Interaction::handles(&interactions);
     Simulation::new(&wedge, StandardLagrange, integrator)
         .coordinates::<C>()
-        .interactions([Interaction::friction(h.incline.displacement(), capacity)])
+        .interactions(interactions)
         .run(
             0.0..=end,
             every(0.01 * end),
             |sample| -> Result<(), Fault> {
                 last = (
                     sample.displacement(h.incline),
-                    sample.effort(0)?,
-                    sample.mode(0)?,
+                    sample.effort(friction)?,
+                    sample.mode(friction)?,
                 );
                 Ok(())
             },

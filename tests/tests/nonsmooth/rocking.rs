@@ -35,6 +35,8 @@ struct Block {
 fn rocks<C: Coordinates<Block>>(what: &str) {
     let (block, h) = (Block::default(), Block::HANDLES);
     let floor = Plane::on_ground([0.0; 3], [0.0, 0.0, 1.0]);
+    let corners = [h.a, h.b].map(|corner| Interaction::contact(corner, floor));
+    let handles = Interaction::handles(&corners);
     let mut times = Vec::new();
     let mut energy = None;
     let centre: StateOf<Block> = block.described_state().expect("described");
@@ -42,13 +44,10 @@ fn rocks<C: Coordinates<Block>>(what: &str) {
     block
         .simulation(StandardLagrange, DormandPrince::new(tight()))
         .coordinates::<C>()
-        .interactions([
-            Interaction::contact(h.a, floor),
-            Interaction::contact(h.b, floor),
-        ])
+        .interactions(corners)
         .run(0.0..=0.75, every(2e-3), |sample| -> Result<(), Fault> {
-            for number in 0..2 {
-                if let Some(impact) = sample.impact(number)?
+            for corner in handles {
+                if let Some(impact) = sample.impact(corner)?
                     && times.last().is_none_or(|last| *last < impact.time)
                 {
                     times.push(impact.time);
@@ -56,7 +55,8 @@ fn rocks<C: Coordinates<Block>>(what: &str) {
                 }
             }
             // One corner bears it, by turns, and the floor takes nothing away.
-            let modes = [sample.mode(0)?, sample.mode(1)?];
+            let [a, b] = handles;
+            let modes = [sample.mode(a)?, sample.mode(b)?];
             let wanted = if times.len() % 2 == 0 {
                 [Mode::AtLower, Mode::Free]
             } else {

@@ -72,21 +72,23 @@ where
     let mut largest = 0.0_f64;
     let mut seen = [0; 2];
     let friction = Interaction::friction(h.contact.displacement(), SLIDING).stiction(STICTION);
+    let frictions = [friction];
+    let [friction] = Interaction::handles(&frictions);
     Simulation::new(&oscillator, StandardLagrange, integrator)
         .coordinates::<C>()
-        .interactions([friction])
+        .interactions(frictions)
         .run(0.0..=7.003, every(0.013), |sample| -> Result<(), Fault> {
             let time = sample.time();
             let (place, sticks) = exact(time);
             // Where a mode ends, both are right.
             let is_between = exact(time - 1e-8).1 != exact(time + 1e-8).1;
-            match sample.mode(0)? {
+            match sample.mode(friction)? {
                 Mode::Sticking if sticks || is_between => {
                     let speed = sample.velocity(h.block).x;
                     assert!((speed - BELT).abs() < 1e-12, "{speed} at {time}");
                 }
                 Mode::SlidingDown if !sticks || is_between => {
-                    let effort = sample.effort(0)?;
+                    let effort = sample.effort(friction)?;
                     assert!((effort - SLIDING).abs() < 1e-12, "{effort} at {time}");
                 }
                 mode => panic!("{mode:?} at {time}"),

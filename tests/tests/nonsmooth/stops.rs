@@ -75,14 +75,15 @@ where
     let mut times = Vec::new();
     let mut last = (Mode::Free, 0.0);
     let mut energy = None;
-    let stop = Interaction::limits(quantity, [stop, 3.0]).restitution(0.5);
+    let stops = [Interaction::limits(quantity, [stop, 3.0]).restitution(0.5)];
+    let [stop] = Interaction::handles(&stops);
     let report = Simulation::new(&mechanism, StandardLagrange, integrator)
         .coordinates::<C>()
         .projection(Projection::default())
-        .interactions([stop])
+        .interactions(stops)
         .run(0.0..=end, every(2e-3), |sample| -> Result<(), Fault> {
             let kept = *energy.get_or_insert(sample.energy());
-            if let Some(impact) = sample.impact(0)?
+            if let Some(impact) = sample.impact(stop)?
                 && times.last() != Some(&impact.time)
             {
                 times.push(impact.time);
@@ -98,7 +99,7 @@ where
                 let error = (sample.energy() - kept).abs();
                 assert!(error < 1e-9, "{error:e} at {}", sample.time());
             }
-            last = (sample.mode(0)?, sample.effort(0)?);
+            last = (sample.mode(stop)?, sample.effort(stop)?);
             Ok(())
         })
         .expect("it falls");
@@ -174,13 +175,14 @@ where
 {
     let [_, _, stop] = reference::FOUR_BAR_ANGLES;
     let (four_bar, h) = (FourBar::default(), FourBar::HANDLES);
+    let limits = h.rocker_foot.angle().limits();
     let (mut times, mut opening) = (Vec::new(), 0.0_f64);
     Simulation::new(&four_bar, formulation, DormandPrince::new(tight()))
         .coordinates::<C>()
         .interactions([Interaction::limits(h.rocker_foot.angle(), [stop, 3.0]).restitution(0.5)])
         .run(0.0..=1.03, every(2e-3), |sample| -> Result<(), Fault> {
             opening = opening.max(sample.violation());
-            if let Some(impact) = sample.impact(0)?
+            if let Some(impact) = sample.impact(limits)?
                 && times.last() != Some(&impact.time)
             {
                 times.push(impact.time);

@@ -90,13 +90,16 @@ where
     I: Runs<f64, Mill, StandardLagrange, C, Forces>,
 {
     let (mill, h) = (Mill::default(), Mill::HANDLES);
+    let interactions = interactions(&mill, end <= SHORT);
+    let handles = Interaction::handles(&interactions);
+    let [_, clutch, _, _, dog, _] = handles;
     let memory = Cell::new(from.map_or(0.0, |kept| kept.1));
     let shown = RefCell::new(Shown::new());
     let before = from.map_or(0, |kept| kept.2);
     let mut kept = Vec::new();
     let mut simulation = Simulation::new(&mill, StandardLagrange, method)
         .coordinates::<C>()
-        .interactions(interactions(&mill, end <= SHORT))
+        .interactions(interactions)
         .every_period(0.05, |sample, inputs| {
             memory.set(0.8 * memory.get() + 0.5 * (20.0 - sample.angle_rate(h.shaft)));
             inputs.voltage = memory.get();
@@ -105,15 +108,15 @@ where
             "engage",
             Crossing::Rising,
             |sample| sample.angle_rate(h.shaft) - 8.0,
-            |event| event.engage(1),
+            |event| event.engage(clutch),
         )
         .on(
             "let go",
             Crossing::Rising,
             |sample| sample.time() - 0.8,
             |event| {
-                event.release(1)?;
-                event.engage(4)
+                event.release(clutch)?;
+                event.engage(dog)
             },
         )
         .on(
@@ -128,12 +131,8 @@ where
         });
     let observe = |sample: &Sample<'_, f64, Mill>| -> Result<(), RunFault> {
         let mut told = [(InteractionMode::Free, 0.0, None); INTERACTIONS];
-        for (number, told) in told.iter_mut().enumerate() {
-            *told = (
-                sample.mode(number)?,
-                sample.effort(number)?,
-                sample.impact(number)?,
-            );
+        for (of, told) in handles.into_iter().zip(&mut told) {
+            *told = (sample.mode(of)?, sample.effort(of)?, sample.impact(of)?);
         }
         shown
             .borrow_mut()
@@ -238,14 +237,16 @@ fn methods_with_a_memory_go_on() {
 #[test]
 fn checkpoints_change_nothing() {
     let mill = Mill::default();
+    let interactions = interactions(&mill, false);
+    let [_, clutch, ..] = Interaction::handles(&interactions);
     let simulation = || {
         mill.simulation(StandardLagrange, DormandPrince::default())
-            .interactions(interactions(&mill, false))
+            .interactions(interactions)
             .on(
                 "engage",
                 Crossing::Rising,
                 |s| s.time() - 0.1,
-                |event| event.engage(1),
+                move |event| event.engage(clutch),
             )
     };
     let run = simulation().run(0.0..=1.0, every(0.1), |_| ());

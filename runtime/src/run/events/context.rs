@@ -10,6 +10,7 @@ use crate::math::scalar::Real;
 use crate::measure::access::MechanismExt as _;
 use crate::mechanism::handle::{HasAngle, HasDisplacement, JointHandle, StateHandle};
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::handle::{InteractionHandle, engage};
 use crate::nonsmooth::impulse::impact;
 use crate::nonsmooth::quantity::JointQuantity;
 use crate::nonsmooth::status::Impact;
@@ -88,25 +89,20 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
         Ok(())
     }
 
-    /// Engages a brake or a clutch by its place in the list of
-    /// [`Simulation::interactions`](crate::Simulation::interactions).
+    /// Engages dry friction, a brake or a clutch.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`].
-    pub fn engage(&mut self, number: usize) -> Result<(), Fault> {
-        let tracked = self.sample.tracked(number)?;
-        tracked.update(|status| status.engage(true));
-        Ok(())
+    /// [`Fault::NoSuchInteraction`]; [`Fault::MisplacedSetting`] of limits.
+    pub fn engage(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
+        engage(self.sample.interactions(), interaction, true)
     }
 
     /// Releases it.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`].
-    pub fn release(&mut self, number: usize) -> Result<(), Fault> {
-        let tracked = self.sample.tracked(number)?;
-        tracked.update(|status| status.engage(false));
-        Ok(())
+    /// As [`Event::engage`].
+    pub fn release(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
+        engage(self.sample.interactions(), interaction, false)
     }
 
     /// Gives an impulse along the angle or the displacement of a joint, after which its rate is

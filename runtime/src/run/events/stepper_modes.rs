@@ -11,7 +11,8 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::turns;
-use crate::nonsmooth::status::{Impact, InteractionMode, Tracked};
+use crate::nonsmooth::handle::{InteractionHandle, engage, named};
+use crate::nonsmooth::status::{Impact, InteractionMode};
 use crate::run::stepper::{Stepper, Steps};
 use crate::stepping::followed::bodies_by_halves;
 use crate::stepping::interval::Interval;
@@ -31,22 +32,26 @@ where
     A: AppliedForces<S, M>,
     C: Coordinates<M>,
 {
-    /// The mode of an interaction by its place in the list; [`InteractionMode::Released`] or
-    /// [`InteractionMode::Free`] before the first step.
+    /// The mode of an interaction; [`InteractionMode::Released`] or [`InteractionMode::Free`]
+    /// before the first step.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`].
-    pub fn mode(&self, number: usize) -> Result<InteractionMode, Fault> {
-        Ok(self.tracked(number)?.told_mode())
+    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
+    pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, Fault> {
+        Ok(named(self.dynamics.tracked(), interaction)?.told_mode())
     }
 
     /// The effort of an interaction (N m, N) in a state, at the time that was reached. One
     /// evaluation.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], the fault of the evaluation.
-    pub fn effort(&self, number: usize, state: &C::State<S>) -> Result<S, Fault> {
-        let tracked = self.tracked(number)?;
+    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`], the fault of the evaluation.
+    pub fn effort(
+        &self,
+        interaction: InteractionHandle<M>,
+        state: &C::State<S>,
+    ) -> Result<S, Fault> {
+        let tracked = named(self.dynamics.tracked(), interaction)?;
         self.dynamics.efforts(self.time(), state)?;
         Ok(tracked.status.get().effort)
     }
@@ -54,37 +59,28 @@ where
     /// The last impulse of an interaction so far, if there was one.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`].
-    pub fn impact(&self, number: usize) -> Result<Option<Impact<S>>, Fault> {
-        Ok(self.tracked(number)?.status.get().impact)
+    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
+    pub fn impact(&self, interaction: InteractionHandle<M>) -> Result<Option<Impact<S>>, Fault> {
+        Ok(named(self.dynamics.tracked(), interaction)?
+            .status
+            .get()
+            .impact)
     }
 
-    /// Engages a brake or a clutch, from the next step on.
+    /// Engages dry friction, a brake or a clutch, from the next step on.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`].
-    pub fn engage(&mut self, number: usize) -> Result<(), Fault> {
-        let tracked = self.tracked(number)?;
-        tracked.update(|status| status.engage(true));
-        Ok(())
+    /// [`Fault::NoSuchInteraction`]; [`Fault::MisplacedSetting`] of limits.
+    pub fn engage(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
+        engage(self.dynamics.tracked(), interaction, true)
     }
 
     /// Releases it, from the next step on.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`].
-    pub fn release(&mut self, number: usize) -> Result<(), Fault> {
-        let tracked = self.tracked(number)?;
-        tracked.update(|status| status.engage(false));
-        Ok(())
-    }
-
-    fn tracked(&self, number: usize) -> Result<&Tracked<S, M>, Fault> {
-        let list = self.dynamics.tracked();
-        list.get(number).ok_or(Fault::NoSuchInteraction {
-            number,
-            interactions: list.len(),
-        })
+    /// As [`Stepper::engage`].
+    pub fn release(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
+        engage(self.dynamics.tracked(), interaction, false)
     }
 
     /// Accepts the settings, once.
