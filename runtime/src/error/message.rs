@@ -8,6 +8,11 @@ use crate::error::readable::{Given, Measured};
 use crate::error::switches;
 use crate::error::{AngleSet, Fault, LeavesOut, NotFinite, Quantity};
 
+const NOT_VERIFIED: &str = "a run with handlers, controllers, checkpoints or a trajectory has no companion that `verified()` could compare it with, for closures cannot be called twice; \
+     compare with a second run of another tolerance or step";
+
+const NOT_LED: &str = "a run that is led by `begin()` is not verified, keeps no checkpoints and records no trajectory; `run(..)` does so, with an observer";
+
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -188,15 +193,8 @@ impl fmt::Display for Fault {
             | Self::LoadNotUnique { .. }
             | Self::EndlessModes { .. }
             | Self::NoInteractions => interactions::say(self, f),
-            Self::NotVerified => write!(
-                f,
-                "a run with handlers, controllers, checkpoints or a trajectory has no companion that `verified()` could compare it with, for closures cannot be called twice; compare with a second \
-                 run of another tolerance or step"
-            ),
-            Self::NotLed => write!(
-                f,
-                "a run that is led by `begin()` is not verified, keeps no checkpoints and records no trajectory; `run(..)` does so, with an observer"
-            ),
+            Self::NotVerified => f.write_str(NOT_VERIFIED),
+            Self::NotLed => f.write_str(NOT_LED),
             Self::SlidingLaw { .. }
             | Self::OnSwitch { .. }
             | Self::SwitchUndecided { .. }

@@ -74,10 +74,10 @@ impl<P: Solvable, I: Integrator<P::Number, Equations<P>>> Leads<P> for I {}
 /// A run that its caller leads: from step to step, or from time to time. It is begun by
 /// [`Simulation::begin`](crate::Simulation::begin).
 ///
-/// [`Simulation::run`](crate::Simulation::run) is the same loop with an observer. Events, controllers, interactions, laws
-/// that switch, corrections and the monitor are the same; steps are, too, to the last bit, where
-/// both ask for output alike. Between two calls the state may be read and changed, and the run
-/// may be left: it is a value, which a struct may hold beside what else goes on.
+/// [`Simulation::run`](crate::Simulation::run) is the same loop with an observer. Events,
+/// controllers, interactions, laws that switch, corrections and the monitor are the same. Steps are
+/// the same to the last bit where both ask for output alike. Between two calls the state may be
+/// read and changed. A run is a value, which a struct may hold.
 ///
 /// ```
 /// use holonom::prelude::*;
@@ -148,8 +148,9 @@ where
     /// have been called at its start.
     ///
     /// # Errors
-    /// Those of [`Simulation::run`](crate::Simulation::run) at a start. [`Fault::NotLed`] of a simulation that is
-    /// [`verified`](crate::Simulation::verified), keeps checkpoints or records a trajectory.
+    /// Those of [`Simulation::run`](crate::Simulation::run) at a start. [`Fault::NotLed`] of a
+    /// simulation that is [`verified`](crate::Simulation::verified), keeps checkpoints or records a
+    /// trajectory.
     pub fn begin(
         self,
         interval: RangeInclusive<S>,

@@ -4,11 +4,12 @@
 //! integration from step to step, and knows nobody who looks on. `taken.rs` takes a step,
 //! `corrected.rs` brings its end back onto the constraints, `commit.rs` accepts it, `explained.rs`
 //! says why a step cannot be taken. `prepared.rs` is what it begins with, and `leg.rs` is one
-//! integration of it. `observed.rs` leads a run and shows its states. `instant.rs` is what is done and shown between two
-//! integrations. `Driver::act` in `events/handling.rs` has its phases.
-//! `pulled.rs` asks a driver for one thing after the other: for
-//! `companion.rs`, which leads a second driver beside the first, for `verification.rs`, and for
-//! `led.rs`, a run that its caller leads.
+//! integration of it. `instant.rs` is what is done between two integrations, and `Driver::act` in
+//! `events/handling.rs` has its phases.
+//!
+//! Three lead a driver. `observed.rs` shows its states to an observer. `companion.rs` leads a second
+//! one beside the first, for `verification.rs`. `led.rs` is a run that its caller leads. The last
+//! two ask for one thing after the other (`pulled.rs`).
 //!
 //! A post-stabilisation is a trait object (`post_step.rs`): a corrected step costs far more than a
 //! call, and runs need no type for each. The stabilisation `TreeRecovery` goes from bodies to joint
