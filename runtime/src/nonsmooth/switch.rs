@@ -288,8 +288,8 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         compliance * capacity * S::constant(OF_TIME) * time.ulp()
     }
 
-    /// Says in the problem of impulses which ones it has, and which rate is wanted; whether there is
-    /// one that is not zero.
+    /// Says in the problem of impulses which ones it has, and which rate is wanted; whether there
+    /// is one that is not zero.
     fn collides<const K: usize>(
         &self,
         one: &Struck<S>,

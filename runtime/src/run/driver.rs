@@ -71,6 +71,12 @@ impl<S: Real, M: Mechanism> Course<S, M> {
 }
 
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
+    /// What the run has cost so far, with the integration under way.
+    pub(crate) fn counts_with(&self, begun: &Begun<S>) -> Counts {
+        let under_way = self.march.counts().without(begun.of_monitor);
+        self.course.counts.plus(under_way)
+    }
+
     /// What a run has come to, up to a state, with an integration under way if there is one.
     pub(crate) fn report(
         &self,

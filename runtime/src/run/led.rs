@@ -19,7 +19,7 @@ use crate::run::driver::{Course, Driver};
 use crate::run::events::context::Event;
 use crate::run::events::list::{Happenings, NothingHappens};
 use crate::run::events::switching::Switching;
-use crate::run::instant::Handled;
+use crate::run::handled::Handled;
 use crate::run::output::IntoFlow;
 use crate::run::pulled::{Pulled, Way};
 use crate::run::report::RunReport;

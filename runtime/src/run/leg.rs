@@ -1,15 +1,9 @@
 //! An integration of a driver, from where it begins to where it ends.
 
-use crate::error::Fault;
-use crate::integrate::{Counts, TimeSpan};
 use crate::math::scalar::Real;
 use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
-use crate::run::driver::Driver;
-use crate::run::past::Past;
 use crate::run::within::Looks;
-use crate::run::worked::begin_to_watch;
-use crate::stepping::watch::is_same;
 
 /// Where a driver is on its way.
 pub(crate) struct Leg<S: Real, M: Mechanism> {
@@ -45,6 +39,10 @@ impl<S: Real, M: Mechanism> Taken<S, M> {
 #[derive(Clone, Copy)]
 pub(crate) struct Begun<S> {
     /// When (s).
+    #[cfg_attr(
+        not(feature = "std"),
+        expect(dead_code, reason = "checkpoints need a heap")
+    )]
     pub(crate) start: S,
     /// What interpolants have evaluated for the monitor, which is no part of the run.
     pub(crate) of_monitor: usize,
@@ -71,141 +69,4 @@ impl<S: Real, M: Mechanism> Leg<S, M> {
     pub(crate) fn is_done(&self) -> bool {
         self.taken.end >= self.until
     }
-}
-
-impl<S: Real, M: Mechanism> Driver<'_, S, M> {
-    /// Begins a run at the start of its interval (s): evaluates where that has no length, and calls
-    /// controllers. Whether one stops the run.
-    pub(crate) fn begin(
-        &mut self,
-        (start, end): (S, S),
-        at: &mut StateAt<S, M>,
-    ) -> Result<bool, Fault> {
-        if start == end {
-            let equations = self.march.equations_mut();
-            let evaluated = equations.evaluate_once(start, &at.bodies);
-            evaluated.map_err(|fault| self.explained(fault, *at))?;
-            self.course.counts.evaluations += 1;
-        }
-        self.begin_events(at)
-    }
-
-    /// Shows the start to the monitor, and asks closures twice, before the first step.
-    pub(crate) fn begin_to_watch(
-        &mut self,
-        (start, end): (S, S),
-        at: &StateAt<S, M>,
-    ) -> Result<(), Fault> {
-        if start == end {
-            return Ok(());
-        }
-        let equations = self.march.equations();
-        if let Some(monitor) = &mut self.course.monitor {
-            equations.begin(monitor, start, &at.bodies);
-        }
-        equations.ask_twice((start, &at.bodies), (end, &at.bodies))
-    }
-
-    /// Begins an integration, which asks for output after so many seconds, or goes on with that of
-    /// a checkpoint. False where it goes across a length of zero instead.
-    pub(crate) fn open(
-        &mut self,
-        leg: &mut Leg<S, M>,
-        first_output: S,
-        at: &mut StateAt<S, M>,
-        past: Option<&Past<'_, S, M>>,
-    ) -> Result<bool, Fault> {
-        let from = leg.from;
-        let until = self.next_end(from, self.course.hybrid.end)?;
-        let under_way = past.and_then(|past| Some((past, past.segment?)));
-        if under_way.is_none() {
-            self.course.passing.begin();
-        }
-        leg.until = self.course.passing.end(from, until);
-        if past.is_none() {
-            self.leave_zeros(at, leg.until - from);
-        }
-        let span = TimeSpan {
-            start: from,
-            end: leg.until,
-            first_output: first_output.min(leg.until - from),
-        };
-        let begun = match under_way {
-            Some((past, segment)) => self.go_on(span, &segment, past)?,
-            None if self.goes_across(at, leg.until)? => return Ok(false),
-            None => self.start(span, at)?,
-        };
-        leg.under_way = Some(begun);
-        leg.taken.end = self.march.time();
-        Ok(true)
-    }
-
-    /// Ends the integration under way, if there is one. False after a step that must be shorter: at
-    /// that instant nothing happens.
-    pub(crate) fn close(&mut self, leg: &mut Leg<S, M>, at: &mut StateAt<S, M>) -> bool {
-        if let Some(begun) = leg.under_way.take() {
-            self.course.counts = self.counts_with(&begun);
-        }
-        self.convert(at);
-        let length = leg.until - leg.from;
-        leg.from = at.time;
-        if self.course.passing.has_refused(at.time) {
-            return false;
-        }
-        self.leave_zeros(at, length);
-        true
-    }
-
-    /// What the run has cost so far, with the integration under way.
-    pub(crate) fn counts_with(&self, begun: &Begun<S>) -> Counts {
-        let under_way = self.march.counts().without(begun.of_monitor);
-        self.course.counts.plus(under_way)
-    }
-
-    /// Where (s) an integration ends that begins at a time, at the latest: at a break, a controller
-    /// or a switch of the time alone.
-    fn next_end(&mut self, from: S, end: S) -> Result<S, Fault> {
-        let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
-        let until = self.next_instant(until);
-        self.next_switch(from, until)
-    }
-
-    /// The next instant (s) of a controller up to a time.
-    fn next_instant(&mut self, until: S) -> S {
-        let mut next = until;
-        let _ = self.list.each(&mut |happening| {
-            if let Some(period) = happening.period()
-                && period.next() < next
-                && !is_same(period.next(), until)
-            {
-                next = period.next();
-            }
-            Ok(())
-        });
-        next
-    }
-
-    /// Begins an integration.
-    fn start(&mut self, span: TimeSpan<S>, at: &StateAt<S, M>) -> Result<Begun<S>, Fault> {
-        self.march.start(span, &at.bodies)?;
-        let goes_on = self.course.passing.goes_on(span.start);
-        if let (Some(monitor), false) = (&mut self.course.monitor, goes_on) {
-            monitor.restart();
-            begin_to_watch(monitor, self.march, &at.bodies);
-        }
-        Ok(Begun {
-            start: span.start,
-            of_monitor: 0,
-        })
-    }
-}
-
-/// The first break after a time, of those of the description and those of a run, or the end.
-fn next_break<S: Real>(described: &[f64], breaks: &[S], from: S, end: S) -> S {
-    let described = described.iter().map(|&time| S::constant(time));
-    let beyond = |time: S, bound: S| time - bound > S::constant(16.0) * bound.max(time).ulp();
-    described
-        .chain(breaks.iter().copied())
-        .filter(|&time| beyond(time, from) && beyond(end, time))
-        .fold(end, S::min)
 }

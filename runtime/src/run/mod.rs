@@ -4,20 +4,21 @@
 //! integration from step to step, and knows nobody who looks on. `taken.rs` takes a step,
 //! `corrected.rs` brings its end back onto the constraints, `commit.rs` accepts it, `explained.rs`
 //! says why a step cannot be taken. `prepared.rs` is what it begins with, and `leg.rs` is one
-//! integration of it. `instant.rs` is what is done between two integrations, and `Driver::act` in
-//! `events/handling.rs` has its phases.
+//! integration of it, which `opening.rs` begins and ends. Between two `handled.rs` does what is to
+//! be done; `Driver::act` in `events/handling.rs` has its phases.
 //!
-//! Three lead a driver. `observed.rs` shows its states to an observer. `companion.rs` leads a second
-//! one beside the first, for `verification.rs`. `led.rs` is a run that its caller leads. The last
-//! two ask for one thing after the other (`pulled.rs`).
+//! Three lead a driver. `observed.rs` is one with an observer: `leading.rs` takes it from its start
+//! to its end, and `instant.rs` shows what is done between. `companion.rs` is a second driver
+//! beside the first, for `verification.rs`. `led.rs` is a run that its caller leads. The last two
+//! ask for one thing after the other (`pulled.rs`).
 //!
 //! A post-stabilisation is a trait object (`post_step.rs`): a corrected step costs far more than a
 //! call, and runs need no type for each. The stabilisation `TreeRecovery` goes from bodies to joint
 //! coordinates and back by the kernels of starts.
 //!
-//! `checkpoint` is where a run can go on, and `resumed.rs` goes on there: `past.rs` is what of it a
-//! run reads, without a heap. A resumed integration is begun as it was, and then its memory is
-//! replaced.
+//! `checkpoint` is where a run can go on, and `resumed.rs` goes on there. `past.rs` is what of it a
+//! run reads, without a heap, and `remembered.rs` what a driver does with that. A resumed
+//! integration is begun as it was, and then its memory is replaced.
 //!
 //! `passing.rs` and `passages.rs` lead a run through instants at which two points meet that a force
 //! acts between.
@@ -42,12 +43,15 @@ pub(crate) mod dense_step;
 pub(crate) mod driver;
 pub(crate) mod events;
 mod explained;
+mod handled;
 mod instant;
 pub(crate) mod interactions;
 pub(crate) mod kinematics;
+mod leading;
 pub(crate) mod led;
 mod leg;
 mod observed;
+mod opening;
 pub(crate) mod output;
 mod passages;
 pub(crate) mod passing;
@@ -59,8 +63,9 @@ mod pulled;
 pub(crate) mod record_error;
 #[cfg(feature = "recorder")]
 pub(crate) mod recorder;
+mod remembered;
 pub(crate) mod report;
-pub(crate) mod resumed;
+mod resumed;
 pub(crate) mod runs;
 pub(crate) mod sample;
 pub(crate) mod simulate;

@@ -22,7 +22,7 @@ use crate::run::events::switching::Switching;
 use crate::run::output::check_interval;
 use crate::run::past::Past;
 use crate::run::post_step::PostStabilisation;
-use crate::run::resumed::take_values;
+use crate::run::remembered::take_values;
 use crate::run::simulation::{Setup, Source};
 use crate::stepping::march::settings;
 

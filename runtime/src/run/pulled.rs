@@ -6,7 +6,7 @@ use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::Seen;
 use crate::run::driver::Driver;
-use crate::run::instant::Handled;
+use crate::run::handled::Handled;
 use crate::run::leg::Leg;
 
 /// Where a driver is that is asked.

@@ -33,7 +33,7 @@ const LONG: [(&str, &str, usize); 14] = [
     ("macros/engine/src/emit/report.rs", "report", 128),
     ("macros/engine/src/rank/mod.rs", "judged", 129),
     ("macros/engine/src/symbolic/scene.rs", "on", 160),
-    ("runtime/src/error/message.rs", "fmt", 439),
+    ("runtime/src/error/message.rs", "fmt", 438),
     ("runtime/src/independent/partition.rs", "eliminated", 105),
     ("runtime/src/monitor/warning.rs", "fmt", 171),
 ];

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::lengths::{assert_known, sources};
 
 /// Tuples of a time and a state in signatures and fields, by file.
-const TUPLES: [(&str, usize); 42] = [
+const TUPLES: [(&str, usize); 41] = [
     ("constraints/newton.rs", 1),
     ("dynamics/equations.rs", 4),
     ("dynamics/evaluate.rs", 2),
@@ -33,7 +33,6 @@ const TUPLES: [(&str, usize); 42] = [
     ("monitor/within.rs", 1),
     ("nonsmooth/described.rs", 1),
     ("run/checkpoint/capture.rs", 1),
-    ("run/companion.rs", 1),
     ("run/events/guards.rs", 1),
     ("run/events/handling.rs", 1),
     ("run/events/sides.rs", 3),
@@ -43,7 +42,7 @@ const TUPLES: [(&str, usize); 42] = [
     ("run/kinematics/motion.rs", 1),
     ("run/passages.rs", 4),
     ("run/passing.rs", 1),
-    ("run/resumed.rs", 1),
+    ("run/remembered.rs", 1),
     ("run/simulation.rs", 1),
     ("run/stepper.rs", 1),
     ("run/trajectory/record.rs", 1),

@@ -237,7 +237,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
                 return Ok(());
             };
             let handler = &mut |event: &mut Event<'_, S, M>| happening.act(event);
-            done.and(invoke(march, hybrid, (name, handler), (time, state))?);
+            done.and(invoke(march, hybrid, (name, handler), time, state)?);
             Ok(())
         })?;
         Ok(self.with_asked(done))
@@ -266,7 +266,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             .is_some()
             .then(|| self.energies(time, state));
         let hybrid = &mut self.course.hybrid;
-        let done = invoke(self.march, hybrid, ("", handler), (time, state))?;
+        let done = invoke(self.march, hybrid, ("", handler), time, state)?;
         let done = self.with_asked(done);
         self.follow(&done, time, state)?;
         self.course.hybrid.is_fresh = true;
@@ -358,7 +358,8 @@ fn invoke<S: Real, M: Mechanism>(
     march: &mut (dyn Marching<S, M> + '_),
     hybrid: &mut Hybrid<S, M>,
     (name, handler): (&'static str, &mut Handler<'_, S, M>),
-    (time, state): (S, &mut M::State<S>),
+    time: S,
+    state: &mut M::State<S>,
 ) -> Result<Done, Fault> {
     let mut done = Done::nothing();
     let equations = march.equations();

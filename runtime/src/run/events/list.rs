@@ -170,16 +170,8 @@ pub(crate) struct Hybrid<S: Real, M: Mechanism> {
     pub(crate) given: M::Parameters<S>,
     pub(crate) taken: Option<M::Parameters<S>>,
     /// After how many steps, at the most, a checkpoint may be due.
-    #[cfg_attr(
-        not(feature = "std"),
-        expect(dead_code, reason = "checkpoints and trajectories need a heap")
-    )]
     pub(crate) keeps: Option<usize>,
     /// Whether the motion is recorded.
-    #[cfg_attr(
-        not(feature = "std"),
-        expect(dead_code, reason = "checkpoints and trajectories need a heap")
-    )]
     pub(crate) records: bool,
     /// Warnings from before a restart from a file.
     #[cfg(feature = "std")]
