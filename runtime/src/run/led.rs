@@ -49,6 +49,12 @@ pub enum Reached {
 
 type State<P> = <<P as Posed>::Mechanism as Mechanism>::State<<P as Posed>::Number>;
 type Failed<P> = SimulationError<State<P>>;
+type OnTheWay<'r, P> = (
+    Driver<'r, <P as Posed>::Number, <P as Posed>::Mechanism>,
+    &'r mut Way<<P as Posed>::Number, <P as Posed>::Mechanism>,
+);
+/// A run that is led, or why it does not begin.
+type Begun<'a, P, I, H> = Result<Run<'a, P, I, H>, Failed<P>>;
 type Carried<P> = Heeding<<P as Posed>::Number, <P as Posed>::Mechanism, Led<<P as Posed>::Forces>>;
 type Equations<P> = Dynamics<
     <P as Posed>::Number,
@@ -151,10 +157,7 @@ where
     /// Those of [`Simulation::run`](crate::Simulation::run) at a start. [`Fault::NotLed`] of a
     /// simulation that is [`verified`](crate::Simulation::verified), keeps checkpoints or records a
     /// trajectory.
-    pub fn begin(
-        self,
-        interval: RangeInclusive<S>,
-    ) -> Result<Run<'a, Problem<S, M, F, A, C>, I, H>, SimulationError<M::State<S>>>
+    pub fn begin(self, interval: RangeInclusive<S>) -> Begun<'a, Problem<S, M, F, A, C>, I, H>
     where
         I: Leads<Problem<S, M, F, A, C>>,
     {
@@ -352,12 +355,7 @@ where
         }
     }
 
-    fn driver(
-        &mut self,
-    ) -> (
-        Driver<'_, P::Number, P::Mechanism>,
-        &mut Way<P::Number, P::Mechanism>,
-    ) {
+    fn driver(&mut self) -> OnTheWay<'_, P> {
         let driver = Driver {
             march: &mut self.march,
             list: &mut self.happenings,
