@@ -26,6 +26,7 @@ use core::f64::consts::{PI, TAU};
 
 use holonom::prelude::*;
 use holonom::{BodyHandle, DormandPrince853, JointCoordinates, StateParts, View, state::Array};
+use holonom_fixtures as _;
 
 /// Steps so small that the integration does not count.
 fn tight() -> DormandPrince853<f64> {

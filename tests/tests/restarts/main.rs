@@ -17,6 +17,7 @@ use holonom::mechanism::Coordinates;
 use holonom::prelude::*;
 use holonom::run::Checkpoint;
 use holonom::{Runs, run::Reporting};
+use holonom_fixtures as _;
 use holonom_tests::IS_EXHAUSTIVE;
 use serde_json::{from_str, to_string};
 
