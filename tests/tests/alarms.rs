@@ -7,6 +7,7 @@ use holonom::forces::{Actuator, SpringDamper, TorsionalActuator};
 use holonom::joints::{AngleDriver, DisplacementDriver, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{DormandPrince853, JointCoordinates, StateParts, state::Array};
+use holonom_fixtures as _;
 use holonom_study::trade::{Family, IntegratorSetting};
 use holonom_tests::RunsBoth;
 

@@ -6,6 +6,7 @@ use holonom::forces::SpringDamper;
 use holonom::joints::{PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{Formulation, ImplicitMidpoint, JointCoordinates, Midpoint, RadauIIA, Real};
+use holonom_fixtures as _;
 use holonom_tests::RunsBoth;
 
 /// A rod that hangs still, from a hinge whose axis is not a coordinate axis.

@@ -11,3 +11,5 @@ mod moments;
 mod report;
 #[path = "silent/springs.rs"]
 mod springs;
+
+use holonom_fixtures as _;

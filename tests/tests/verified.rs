@@ -12,6 +12,7 @@ use holonom::{
     mechanism::{Absolute, Relative},
     run::{BodyError, Verification},
 };
+use holonom_fixtures as _;
 use holonom_models::RodPendulum;
 use nalgebra::Vector3;
 

@@ -5,3 +5,5 @@ mod analysis;
 mod assembly;
 mod linkages;
 mod sides;
+
+use holonom_fixtures as _;

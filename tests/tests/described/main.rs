@@ -12,3 +12,5 @@ mod scales;
 mod screws;
 mod shapes;
 mod solved;
+
+use holonom_fixtures as _;

@@ -13,6 +13,7 @@ mod single_steps;
 mod switches;
 
 use holonom::prelude::*;
+use holonom_fixtures as _;
 
 /// A ball of 1 kg on a vertical rail, at the height 1 m.
 #[derive(Mechanism)]

@@ -4,19 +4,10 @@ use holonom::RadauIIA;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::InteractionMode as Mode;
+use holonom_fixtures::Rod;
 
 use super::reference::PENDULUM;
 use super::tight;
-
-/// A rod of 1 m on a hinge about x, released from the horizontal.
-#[derive(Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
-struct Rod {
-    #[body(mass = 2.0, inertia = [1.0 / 6.0, 0.001, 1.0 / 6.0], position = [0.0, 0.5, 0.0])]
-    rod: Body,
-    #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    hinge: Revolute,
-}
 
 fn swings<C: Coordinates<Rod>, F: Formulation<f64>>(formulation: F, bounds: [f64; 2]) {
     let (rod, h) = (Rod::default(), Rod::HANDLES);

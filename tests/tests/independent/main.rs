@@ -16,3 +16,5 @@ mod regressor;
 mod regulator;
 mod singular;
 mod trim;
+
+use holonom_fixtures as _;

@@ -18,6 +18,7 @@ mod turns;
 mod verified;
 
 use holonom::prelude::*;
+use holonom_fixtures::{Ball, Rod};
 
 const GRAVITY: f64 = 9.81;
 
@@ -39,26 +40,6 @@ struct Block {
     motor: Actuator,
     #[force(between = [ground, block], head = [-5.0, 0.0, 0.0], tail = [0.0, 0.0, 0.0], stiffness = stiffness, free_length = 5.0)]
     spring: SpringDamper,
-}
-
-/// A ball of 1 kg on a vertical rail, at the height 1 m.
-#[derive(Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
-struct Ball {
-    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 1.0])]
-    ball: Body,
-    #[joint(between = [ground, ball], point = [0.0, 0.0, 1.0], axis = [0.0, 0.0, 1.0])]
-    rail: Prismatic,
-}
-
-/// A rod of 1 m on a hinge about x, released from the horizontal.
-#[derive(Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
-struct Rod {
-    #[body(mass = 2.0, inertia = [1.0 / 6.0, 0.001, 1.0 / 6.0], position = [0.0, 0.5, 0.0])]
-    rod: Body,
-    #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
-    hinge: Revolute,
 }
 
 /// Two links in a plane without gravity.

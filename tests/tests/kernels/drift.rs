@@ -9,7 +9,7 @@ use holonom_assembler::saddle::Coefficients;
 use holonom_assembler::states::Spread;
 
 use crate::comparison::{DOUBLE, SOLUTION, Worst, distance};
-use crate::scene::{Scene, constants, dense, off, state, values};
+use crate::scene::{STATES, Scene, constants, dense, off, state, values};
 use crate::solutions::{Reference, evaluated};
 
 /// Near the constraints, `|p|` up to this much from 1.
@@ -22,8 +22,6 @@ const fn drifted(norm: f64) -> Spread {
         norm,
     }
 }
-
-const STATES: usize = 300;
 
 /// The largest deviation of the kernels from the assembler's, `|p|` up to `norm` from 1.
 fn of_kernels<M: Scene>(norm: f64) -> f64 {

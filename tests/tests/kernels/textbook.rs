@@ -8,7 +8,7 @@ use holonom_assembler::bodies::Orientation;
 use holonom_assembler::formulation::{self, Evaluator};
 
 use crate::comparison::{Worst, distance};
-use crate::scene::{Scene, consistent, flat, state, values, violated};
+use crate::scene::{STATES, Scene, consistent, flat, state, values, violated};
 
 /// Where both forms keep their digits.
 const SOFT: f64 = 1e2;
@@ -37,8 +37,8 @@ fn deviation<M: Scene, F: Formulation<f64>>(
         .absolute_coordinates();
     let mut evaluator = Evaluator::new(scene.clone(), textbook);
     let (mut accelerations, mut multipliers) = (Worst::default(), Worst::default());
-    let mut states = consistent(&scene, 200, 5);
-    states.extend(violated(&scene, 200, 6));
+    let mut states = consistent(&scene, STATES, 5);
+    states.extend(violated(&scene, STATES, 6));
     for x in states {
         let x = x.as_slice();
         let (evaluation, _) = dynamics

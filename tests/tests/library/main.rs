@@ -20,3 +20,5 @@ mod mechanics;
 mod motion;
 mod states;
 mod turns;
+
+use holonom_fixtures as _;

@@ -12,3 +12,5 @@ mod order;
 mod pendulum;
 mod single_precision;
 mod singular;
+
+use holonom_fixtures as _;

@@ -18,6 +18,7 @@ use holonom::Runs;
 use holonom::measure::{Interacting, NoForces};
 use holonom::mechanism::Coordinates;
 use holonom::prelude::*;
+use holonom_fixtures as _;
 
 /// An integrator that moves a mechanism with so many interactions.
 trait Moves<M: Mechanism, C: Coordinates<M>, const K: usize>:

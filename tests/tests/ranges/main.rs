@@ -7,3 +7,7 @@
 
 mod long;
 mod scales;
+
+// What leaves nothing out is optimised, and takes no code that is not.
+#[cfg(not(feature = "exhaustive"))]
+use holonom_fixtures as _;

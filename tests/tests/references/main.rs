@@ -25,11 +25,12 @@ mod variable_length_pendulum;
 use core::f64::consts::{PI, TAU};
 
 use holonom::prelude::*;
-use holonom::{BodyHandle, JointCoordinates, StateParts, View, state::Array};
+use holonom::{BodyHandle, DormandPrince853, JointCoordinates, StateParts, View, state::Array};
+use holonom_fixtures as _;
 
 /// Steps so small that the integration does not count.
-fn tight() -> DormandPrince<f64> {
-    DormandPrince::new(Tolerance {
+fn tight() -> DormandPrince853<f64> {
+    DormandPrince853::new(Tolerance {
         relative: 1e-11,
         absolute: 1e-13,
     })
@@ -51,7 +52,7 @@ fn at_times<M: JointCoordinates, F: Formulation<f64>>(
     let end = times.last().copied().expect("a time");
     // An angle has no size: a tolerance that is relative to positions of some centimetres asks for
     // more than the same one in radians.
-    let tighter = DormandPrince::new(Tolerance {
+    let tighter = DormandPrince853::new(Tolerance {
         relative: 1e-12,
         absolute: 1e-13,
     });

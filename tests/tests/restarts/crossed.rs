@@ -4,6 +4,7 @@ use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::Trajectory;
 use holonom::{Bdf, DormandPrince853, Runs};
+use holonom_fixtures::Ball;
 
 use super::goes_on;
 
@@ -73,16 +74,6 @@ fn trajectories_have_states() {
         let found = view.state_value(h.current);
         assert!((found - current).abs() < 1e-9, "{time}: {found} {current}");
     }
-}
-
-/// A ball of 1 kg on a vertical rail, at 1 m.
-#[derive(Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
-struct Ball {
-    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 1.0])]
-    ball: Body,
-    #[joint(between = [ground, ball], point = [0.0, 0.0, 1.0], axis = [0.0, 0.0, 1.0])]
-    rail: Prismatic,
 }
 
 #[test]

@@ -16,3 +16,5 @@ mod reactions;
 mod refusals;
 mod stabilisations;
 mod steps;
+
+use holonom_fixtures as _;

@@ -8,3 +8,5 @@ mod closed_forms;
 mod differences;
 mod estimated;
 mod refused;
+
+use holonom_fixtures as _;

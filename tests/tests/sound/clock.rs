@@ -17,19 +17,20 @@ struct Motor {
 }
 
 #[test]
-fn a_thousand_seconds_at_a_kilohertz_in_single_precision() {
+fn many_seconds_at_a_kilohertz_in_single_precision() {
     let motor = Motor::default();
     let mut stepper =
         Stepper::new(&motor, Baumgarte::new(50.0_f32, 50.0), Rk4).expect("acceptable");
     let mut state = motor.described_state().expect("described");
-    for _ in 0..1_000_000 {
+    // A sum of steps would gain 0.7 % from 128 s on, where times are 1.5e-5 s apart.
+    for _ in 0..250_000 {
         stepper.step(&mut state, 1e-3).expect("driven");
     }
     let turned = stepper.view(&state).angle(Motor::HANDLES.drive);
     println!("{} s, {turned} rad", stepper.time());
-    assert!((stepper.time() - 1000.0).abs() < 1e-3);
-    // Digits of the time and of the angle at 1000 rad.
-    assert!((turned - 1000.0).abs() < 5e-3);
+    assert!((stepper.time() - 250.0).abs() < 2.5e-4);
+    // Digits of the time and of the angle at 250 rad.
+    assert!((turned - 250.0).abs() < 1.25e-3);
 }
 
 #[test]
@@ -56,11 +57,12 @@ fn microseconds_from_a_unix_time_on() {
         .expect("acceptable")
         .starting_at(start);
     let mut state = body.described_state::<f64>().expect("described");
-    for _ in 0..1_000_000 {
+    // A sum of these would lose a twentieth: times are 2.4e-7 s apart there.
+    for _ in 0..100_000 {
         stepper.step(&mut state, 1e-6).expect("nothing stops it");
     }
     println!("{} s", stepper.time() - start);
-    assert!((stepper.time() - start - 1.0).abs() < 1e-6);
+    assert!((stepper.time() - start - 0.1).abs() < 1e-6);
     // A law sees the time to the last of its digits: 2.4e-7 s here.
     let mut stepper = Stepper::new(&motor, Baumgarte::default(), Rk4)
         .expect("acceptable")

@@ -19,3 +19,5 @@ mod states;
 mod stopped;
 mod told;
 mod turns;
+
+use holonom_fixtures as _;

@@ -93,7 +93,10 @@ impl Counts {
 fn coarse_orbits_are_told_and_fine_ones_are_quiet() {
     let (mut coarse, mut fine) = (Counts::default(), Counts::default());
     for eccentricity in [0.0, 0.3, 0.6, 0.9, 0.98] {
-        for (turns, is_near) in [(1.0, true), (3.0, true), (10.0, true), (3.0, false)] {
+        // Fixed steps for the flattest orbit are so short that ten turns would take as long as all
+        // else here.
+        let many = if eccentricity > 0.9 { 2.0 } else { 10.0 };
+        for (turns, is_near) in [(1.0, true), (3.0, true), (many, true), (3.0, false)] {
             let case = Case {
                 eccentricity,
                 turns,

@@ -72,7 +72,7 @@ fn states_that_steps_do_not_follow_are_told() {
         assert!(off > 1e-2 && is_told, "{place}: {off}, {is_told}");
     }
     let right = [
-        run(SemiImplicitEuler::every(0.0001), 50.0),
+        run(SemiImplicitEuler::every(0.0001), 12.0),
         run(Rk4::every(0.1), 1000.0),
         run(holonom::Kutta3::every(0.05), 100.0),
         run(DormandPrince::default(), 100.0),

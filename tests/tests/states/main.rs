@@ -9,6 +9,7 @@ mod refusals;
 mod sensitivities;
 
 use holonom::prelude::*;
+use holonom_fixtures as _;
 
 /// The inductance of a motor (H).
 const L: f64 = 2e-3;

@@ -13,6 +13,7 @@ mod second_road;
 use holonom::mechanism::Coordinates;
 use holonom::prelude::*;
 use holonom::{RunReport, Runs, run::Reporting};
+use holonom_fixtures as _;
 
 fn tight() -> Tolerance<f64> {
     Tolerance {

@@ -8,3 +8,5 @@ mod cams;
 mod data;
 mod forces;
 mod splines;
+
+use holonom_fixtures as _;
