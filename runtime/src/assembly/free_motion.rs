@@ -25,7 +25,7 @@ impl<S: Real, M: Mechanism> Subtree<'_, S, M> {
         let at_rest = rate(&state);
         let body = M::REPORT.bodies.get(self.body);
         let first = body.map_or(usize::MAX, |body| body.velocity + offset);
-        [0, 1, 2].map(|k| {
+        let along = |k| {
             let mut state = state;
             write(
                 state.velocities_mut().as_mut_slice(),
@@ -33,7 +33,8 @@ impl<S: Real, M: Mechanism> Subtree<'_, S, M> {
                 [S::one()],
             );
             rate(&state) - at_rest
-        })
+        };
+        [along(0), along(1), along(2)]
     }
 
     /// A turn about the joint's axis, by one radian of its angle; of a screw with its translation.
@@ -173,8 +174,8 @@ impl<S: Real, M: Mechanism> Subtree<'_, S, M> {
                 let slide = part(velocities, block.column, true);
                 let turn = part(velocities, block.column + 3, turns);
                 sum = sum + dot(&force, &slide) + dot(&moment, &turn);
-                let [force, moment, slide, turn] =
-                    [force, moment, slide, turn].map(|vector| square(&vector).sqrt());
+                let (force, moment) = (square(&force).sqrt(), square(&moment).sqrt());
+                let (slide, turn) = (square(&slide).sqrt(), square(&turn).sqrt());
                 size = size + force * (slide + arm * turn) + moment * turn;
             }
             (sum, size)

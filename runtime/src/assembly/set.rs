@@ -54,8 +54,8 @@ impl<S: Real, M: Mechanism> Set<S, M> {
         };
         let least = S::EPSILON.sqrt();
         for (body, info) in M::REPORT.bodies.iter().enumerate() {
-            let [before, after] =
-                [from, given].map(|state| relative::<S, M>(constants, state, body));
+            let before = relative::<S, M>(constants, from, body);
+            let after = relative::<S, M>(constants, given, body);
             let slide = minus(&after.point, &before.point);
             let is_rigid = info.kind == BodyKind::Rigid;
             let angle = if is_rigid {

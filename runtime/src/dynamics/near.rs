@@ -61,7 +61,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     #[cold]
     #[inline(never)]
     pub(crate) fn count_turns(&self, from: &C::State<S>, time: S, to: &mut C::State<S>) {
-        let [from, mut bodies] = [from, to].map(|state| self.bodies(state));
+        let (from, mut bodies) = (self.bodies(from), self.bodies(to));
         turns::count::<S, M>(self.constants(), &from, time, &mut bodies);
         turns::copy(&bodies, to);
     }

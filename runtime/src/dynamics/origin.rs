@@ -44,7 +44,8 @@ pub(crate) fn before_accelerations<S: Real, M: Mechanism, T: Terms>(
         rows[2] = M::constraint_rates(constants, time, state);
     }
     let jacobian = M::jacobian(constants, time, state);
-    let rows = rows.each_ref().map(Array::as_slice);
+    let [gamma, constraints, rates] = &rows;
+    let rows = [gamma.as_slice(), constraints.as_slice(), rates.as_slice()];
     joint(&M::REPORT, rows, jacobian.as_slice()).map(NotFinite::Joint)
 }
 

@@ -174,13 +174,11 @@ impl<S: Real, M: Mechanism> Memory<S, M> {
         let [mut by_lengths, mut by_ways] = [S::zero(); 2];
         let mut take = |place: usize, length: S| {
             let [path] = read(self.lengths.as_slice(), place);
-            let ends = self
-                .places
-                .each_ref()
-                .map(|ends| read(ends.as_slice(), place));
-            let [low, high]: &[[S; 3]; 2] = &ends;
+            let [low, high] = &self.places;
+            let low: [S; 3] = read(low.as_slice(), place);
+            let high: [S; 3] = read(high.as_slice(), place);
             by_lengths = by_lengths.max(path.quotient(length));
-            let amplitude = S::constant(0.5) * square(&minus(high, low)).sqrt();
+            let amplitude = S::constant(0.5) * square(&minus(&high, &low)).sqrt();
             by_ways = by_ways.max(path.quotient(length.max(amplitude)));
         };
         for (index, body) in M::REPORT.bodies.iter().enumerate() {

@@ -121,9 +121,10 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
     pub(super) fn missed_by([end, better]: [&M::State<S>; 2]) -> [M::Velocities<S>; 2] {
         let mut missed = M::Velocities::<S>::zeros();
         let mut slower = *end.velocities();
-        let [from, to] = [better, end].map(|state| state.coordinates().as_slice());
+        let (from, to) = (better.coordinates(), end.coordinates());
         for info in M::REPORT.bodies {
-            let [from, to]: [[S; 3]; 2] = [from, to].map(|x| read(x, info.coordinate));
+            let from = read(from.as_slice(), info.coordinate);
+            let to = read(to.as_slice(), info.coordinate);
             write(missed.as_mut_slice(), info.velocity, minus(&to, &from));
             if info.kind == BodyKind::Rigid {
                 let turn = rotation::<S, M>(info.coordinate, [better, end]);
@@ -145,21 +146,23 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
         motions: &[M::Velocities<S>; 3],
     ) {
         let first = self.first;
-        let [missed, slower, velocities] = motions.each_ref().map(Array::as_slice);
+        let [missed, slower, velocities] = motions;
+        let (missed, slower) = (missed.as_slice(), slower.as_slice());
+        let velocities = velocities.as_slice();
         let mut most = [S::zero(); 2];
         for (body, info) in M::REPORT.bodies.iter().enumerate() {
             let part = S::one().quotient(measure.length_of(body));
             let size = |elements: &[S], place| square(&read::<S, 3>(elements, place)).sqrt();
-            let [from, to] = [&first, end].map(|state| state.coordinates().as_slice());
-            let [from, to]: [[S; 3]; 2] = [from, to].map(|x| read(x, info.coordinate));
+            let from = read(first.coordinates().as_slice(), info.coordinate);
+            let to = read(end.coordinates().as_slice(), info.coordinate);
             let motion = Motion {
                 missed: times(&read(missed, info.velocity), part),
                 way: times(&minus(&to, &from), part),
                 velocity: times(&read(velocities, info.velocity), part),
             };
             self.add(info.velocity, &motion);
-            let off = [missed, slower].map(|elements| size(elements, info.velocity) * part);
-            most = larger(most, off);
+            let off = |elements| size(elements, info.velocity) * part;
+            most = larger(most, [off(missed), off(slower)]);
             if info.kind == BodyKind::Rigid {
                 let place = info.velocity + 3;
                 let motion = Motion {
@@ -168,7 +171,7 @@ impl<S: Real, M: Mechanism> PhaseError<S, M> {
                     velocity: read(velocities, place),
                 };
                 self.add(place, &motion);
-                most = larger(most, [missed, slower].map(|elements| size(elements, place)));
+                most = larger(most, [size(missed, place), size(slower, place)]);
             }
         }
         for (sum, most) in self.missed.iter_mut().zip(most) {

@@ -112,10 +112,9 @@ impl<S: Real, M: Mechanism> States<S, M> {
             let third = length * S::constant(1.0 / 3.0);
             for info in M::REPORT.states {
                 let place = info.coordinate;
-                let [first, middle] = self
-                    .rates
-                    .each_ref()
-                    .map(|rates| at(rates.as_slice(), place));
+                let [first, middle] = &self.rates;
+                let first = at(first.as_slice(), place);
+                let middle = at(middle.as_slice(), place);
                 let sum = first + S::constant(4.0) * middle + at(rates.as_slice(), place);
                 let gained = at(values, place) - at(self.values.as_slice(), place);
                 let missed = gained - third * sum;

@@ -84,8 +84,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// How large places are, of bodies here and where they were described.
     fn places(&self, bodies: &M::State<S>) -> S {
         let described = M::initial_state(self.march.equations().constants());
-        let all = [bodies, &described].map(|state| largest(state.coordinates().as_slice()));
-        all[0].max(all[1])
+        let size = |state: &M::State<S>| largest(state.coordinates().as_slice());
+        size(bodies).max(size(&described))
     }
 
     /// Whether a step that has failed, of so many seconds at the most, is tried again, shorter: by

@@ -146,13 +146,15 @@ impl<S: Real, M: Mechanism> Verification<S, M> {
     /// Compares the bodies of both runs at a time.
     pub(super) fn compare(&mut self, time: S, one: &M::State<S>, other: &M::State<S>) {
         self.compared = self.compared.saturating_add(1);
-        let [a, b] = [one, other].map(|state| state.coordinates().as_slice());
+        let (a, b) = (one.coordinates().as_slice(), other.coordinates().as_slice());
         for info in M::REPORT.bodies {
-            let [r, s]: [[S; 3]; 2] = [a, b].map(|x| read(x, info.coordinate));
+            let r: [S; 3] = read(a, info.coordinate);
+            let s: [S; 3] = read(b, info.coordinate);
             let apart = norm(&[r[0] - s[0], r[1] - s[1], r[2] - s[2]]);
             self.take(info.velocity, time, apart);
             if info.kind == BodyKind::Rigid {
-                let [p, q]: [[S; 4]; 2] = [a, b].map(|x| read(x, info.coordinate + 3));
+                let p = read(a, info.coordinate + 3);
+                let q = read(b, info.coordinate + 3);
                 self.take(info.velocity + 3, time, angle_between(&p, &q));
             }
         }

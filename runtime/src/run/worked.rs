@@ -208,23 +208,29 @@ fn turns_far<S: Real, M: Mechanism>(nodes: &[M::State<S>; 3], step: S) -> bool {
 /// is higher by two (Magnus; Iserles and others, *Lie-group methods*, Acta Numerica 9, 2000).
 fn lag<S: Real, M: Mechanism>(nodes: &[M::State<S>; 3], step: S) -> M::Velocities<S> {
     let mut lag = M::Velocities::<S>::zeros();
-    let [first, _, last] = nodes.each_ref().map(|node| node.coordinates().as_slice());
-    let velocities = nodes.each_ref().map(|node| node.velocities().as_slice());
+    let [first, middle, last] = nodes;
+    let velocity = |node: &M::State<S>, place| read::<S, 3>(node.velocities().as_slice(), place);
     let mut put = |place: usize, way: [S; 3]| {
-        let [a, b, c]: [[S; 3]; 3] = velocities.map(|velocities| read(velocities, place));
+        let [a, b, c] = [
+            velocity(first, place),
+            velocity(middle, place),
+            velocity(last, place),
+        ];
         let sum = plus(&plus(&a, &c), &times(&b, S::constant(4.0)));
         let mean = times(&sum, S::constant(1.0 / 6.0));
         let lack = minus(&over(&way, step), &mean);
         write(lag.as_mut_slice(), place, lack);
     };
     for body in M::REPORT.bodies {
-        let [from, to]: [[S; 3]; 2] = [first, last].map(|x| read(x, body.coordinate));
+        let from = read(first.coordinates().as_slice(), body.coordinate);
+        let to = read(last.coordinates().as_slice(), body.coordinate);
         put(body.velocity, minus(&to, &from));
         if body.kind == BodyKind::Rigid {
             let place = body.velocity + 3;
-            let [w0, _, w1]: [[S; 3]; 3] = velocities.map(|velocities| read(velocities, place));
+            let (w0, w1) = (velocity(first, place), velocity(last, place));
             let bend = times(&cross(&w0, &w1), S::constant(1.0 / 12.0) * step * step);
-            let [p, q]: [[S; 4]; 2] = [first, last].map(|x| read(x, body.coordinate + 3));
+            let p = read(first.coordinates().as_slice(), body.coordinate + 3);
+            let q = read(last.coordinates().as_slice(), body.coordinate + 3);
             put(place, minus(&rotation(&p, &q), &bend));
         }
     }

@@ -92,7 +92,8 @@ where
     }
     let middle = at(&mut dynamics, S::constant(0.5).fused(time - before, before))?;
     let end = at(&mut dynamics, time)?;
-    let [middle, mut bodies] = [middle, end].map(|state| dynamics.bodies_near(&state, &near));
+    let middle = dynamics.bodies_near(&middle, &near);
+    let mut bodies = dynamics.bodies_near(&end, &near);
     let constants = dynamics.constants();
     turns::count_through::<S, M>(constants, [&near, &middle], time - before, &mut bodies);
     Ok(bodies)

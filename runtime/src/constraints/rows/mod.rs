@@ -421,7 +421,11 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         for block in M::REPORT.blocks {
             let mut own = M::Multipliers::<S>::zeros();
             let [mut force, mut moment] = [own; 2];
-            let places = [&mut force, &mut moment, &mut own].map(|array| array.as_mut_slice());
+            let places = [
+                force.as_mut_slice(),
+                moment.as_mut_slice(),
+                own.as_mut_slice(),
+            ];
             let block = core::slice::from_ref(block);
             add_blocks(block, jacobian.as_slice(), mass.as_slice(), places);
             evened::<S, M>(&mut own);
@@ -547,7 +551,8 @@ fn moving<S: Real, M: Mechanism>(state: &M::State<S>, speed: impl Fn(usize) -> S
     let velocities = moving.velocities_mut().as_mut_slice();
     for body in M::REPORT.bodies {
         let place = body.velocity;
-        write(velocities, place, [0, 1, 2].map(|k| speed(place + k)));
+        let speeds = [speed(place), speed(place + 1), speed(place + 2)];
+        write(velocities, place, speeds);
     }
     moving
 }

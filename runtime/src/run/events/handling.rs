@@ -85,7 +85,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             self.stand(*time, state, true)?;
         }
         self.account(before, *time, state);
-        self.read_all(*time, state, |watch, reading| watch.begin(reading))?;
+        self.read_all(*time, state, &mut |watch, reading| watch.begin(reading))?;
         Ok(done.stops)
     }
 
@@ -132,7 +132,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             .is_some()
             .then(|| self.energies(time, state));
         if is_found {
-            self.read_all(time, state, |watch, reading| {
+            self.read_all(time, state, &mut |watch, reading| {
                 watch.correct(reading.here, reading.round_off);
             })?;
         }
@@ -158,7 +158,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         }
         if is_found {
             self.course.hybrid.is_fresh = true;
-            self.read_all(time, state, |watch, reading| {
+            self.read_all(time, state, &mut |watch, reading| {
                 watch.settle(reading, done.moved);
             })?;
         }
@@ -270,7 +270,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let done = self.with_asked(done);
         self.follow(&done, time, state)?;
         self.course.hybrid.is_fresh = true;
-        self.read_all(time, state, |watch, reading| {
+        self.read_all(time, state, &mut |watch, reading| {
             if done.moved {
                 watch.move_to(reading);
             } else {
@@ -297,20 +297,20 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             switching.is_found = false;
         }
         self.stand(*time, state, true)?;
-        self.read_all(*time, state, |watch, reading| watch.move_to(reading))
+        self.read_all(*time, state, &mut |watch, reading| watch.move_to(reading))
     }
 
     fn read_all(
         &mut self,
         time: S,
         state: &M::State<S>,
-        mut take: impl FnMut(&mut Watch<S>, Reading<S>),
+        take: &mut dyn FnMut(&mut Watch<S>, Reading<S>),
     ) -> Result<(), Fault> {
         let ahead = self.ahead(time, state);
         let equations = self.march.equations();
         let constants = equations.constants();
         let shaken = |way| shaken::<S, M>(constants, time, state, way);
-        let beside = [shaken(1.0), shaken(-1.0)];
+        let [one, other] = [shaken(1.0), shaken(-1.0)];
         self.list.each(&mut |happening| {
             if happening.watch().is_none() {
                 return Ok(());
@@ -319,10 +319,12 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
                 happening.read(&Sample::new(View::new(constants, time, state), equations))
             };
             let here = read((time, state));
+            let ahead = read(ahead.borrowed());
+            let beside = [read((one.0, &one.1)), read((other.0, &other.1))];
             let reading = Reading {
                 here,
-                ahead: read(ahead.borrowed()),
-                round_off: round_off(here, beside.each_ref().map(|(t, x)| read((*t, x)))),
+                ahead,
+                round_off: round_off(here, beside),
             };
             if let Some(watch) = happening.watch() {
                 watch.checked(time, here)?;

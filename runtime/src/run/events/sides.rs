@@ -43,9 +43,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             let readings = readings_of::<S, M>(constants, time, state);
             let digits = digits_of::<S, M>(constants, (time, state), &readings);
             switching.each(|switch, watch| {
-                let [reading, digits] =
-                    [&readings, &digits].map(|numbers| of::<S, M>(numbers, switch));
-                watch.found_at(reading, digits);
+                watch.found_at(of::<S, M>(&readings, switch), of::<S, M>(&digits, switch));
                 Ok(())
             })?;
         }

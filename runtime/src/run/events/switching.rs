@@ -56,14 +56,15 @@ pub(super) fn digits_of<S: Real, M: Mechanism>(
     (time, bodies): (S, &M::State<S>),
     readings: &M::Parameters<S>,
 ) -> M::Parameters<S> {
-    let beside = [1.0, -1.0].map(|way| {
+    let beside = |way| {
         let (time, bodies) = shaken::<S, M>(constants, time, bodies, way);
         readings_of::<S, M>(constants, time, &bodies)
-    });
+    };
+    let (one, other) = (beside(1.0), beside(-1.0));
     let mut digits = *readings;
     for switch in M::SWITCHES {
-        let [one, other] = beside.each_ref().map(|beside| of::<S, M>(beside, switch));
-        let size = round_off(of::<S, M>(readings, switch), [one, other]);
+        let beside = [of::<S, M>(&one, switch), of::<S, M>(&other, switch)];
+        let size = round_off(of::<S, M>(readings, switch), beside);
         put::<S, M>(&mut digits, switch, size);
     }
     digits
@@ -87,10 +88,10 @@ impl<S: Real, M: Mechanism> Switching<S, M> {
 
     /// What is known of one.
     pub(crate) fn watch(&self, switch: &Switch) -> Watch<S> {
-        let numbers = self
-            .numbers
-            .each_ref()
-            .map(|array| of::<S, M>(array, switch));
+        let mut numbers = [S::zero(); NUMBERS];
+        for (number, array) in numbers.iter_mut().zip(&self.numbers) {
+            *number = of::<S, M>(array, switch);
+        }
         Watch::of_numbers(switch.expression, Crossing::Either, numbers)
     }
 
