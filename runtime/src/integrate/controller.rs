@@ -98,6 +98,11 @@ impl<S: Real> Tolerance<S> {
     }
 }
 
+/// The least step that is told from none at a time: 16 units in its last place.
+fn told<S: Real>(time: S) -> S {
+    S::constant(16.0) * time.ulp()
+}
+
 /// The settings of the control.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Controller<S> {
@@ -140,14 +145,18 @@ impl<S: Real> Controller<S> {
             floor: absolute.quotient(relative),
             first: set("first step", limits.first)?,
             least,
-            largest: largest.unwrap_or(S::constant(0.1) * duration).max(least),
+            // Steps that the time cannot tell lead nowhere.
+            largest: largest
+                .unwrap_or(S::constant(0.1) * duration)
+                .max(least)
+                .max(told(span.start.abs().max(span.end.abs()))),
             end: span.end,
         })
     }
 
     /// The smallest step at a time.
     pub(super) fn smallest(&self, time: S) -> S {
-        self.least.max(S::constant(16.0) * time.ulp())
+        self.least.max(told(time))
     }
 
     /// The end of an integration at a time where a step as small as it may be is not accepted.

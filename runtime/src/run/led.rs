@@ -314,7 +314,7 @@ where
     /// Changes the state, inputs, parameters or interactions at the time that was reached, by what
     /// a handler of an event has. The state is checked as a start is, sides of laws and modes of
     /// interactions are found anew, and the integration begins anew. It forgets the rest of a step
-    /// within which [`Run::advance_to`] has stopped.
+    /// within which [`Run::advance_to`] has stopped. The name of the event is `change`.
     ///
     /// # Errors
     /// That of the handler, or of a state, an input or a parameter that is not acceptable. The

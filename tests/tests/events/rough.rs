@@ -2,7 +2,7 @@
 
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
-use holonom::{Runs, SemiImplicitEuler};
+use holonom::{Adams, Bdf, DormandPrince853, RadauIIA, Runs, SemiImplicitEuler};
 
 use super::{Ball, GRAVITY, Slider, height, tight};
 
@@ -141,6 +141,35 @@ fn a_run_may_be_repeated_and_has_no_length() {
     let simulation = ball.simulation(StandardLagrange, Rk4::every(0.01));
     let report = simulation.run_until(0.5..=0.5, Crossing::Falling, height);
     assert!(!report.expect("it stands").stopped);
+}
+
+/// How many evaluations a run over an interval of the last digits takes.
+fn evaluations<I: Runs<f64, Ball, StandardLagrange>>(integrator: I, start: f64) -> usize {
+    let ball = Ball::default();
+    let run = ball.simulation(StandardLagrange, integrator);
+    let report = run.run(start..=2.0, every_step(), |_| ());
+    let report = report.unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(report.time, 2.0);
+    report.evaluations
+}
+
+#[test]
+fn an_interval_of_last_digits_ends() {
+    let mut start = 2.0_f64;
+    for digits in 1..=40 {
+        start = start.next_down();
+        let counts = [
+            evaluations(DormandPrince::new(tight()), start),
+            evaluations(DormandPrince853::new(tight()), start),
+            evaluations(Adams::new(tight()), start),
+            evaluations(Bdf::new(tight()), start),
+            evaluations(RadauIIA::new(tight()), start),
+        ];
+        assert!(
+            counts.iter().all(|&count| count < 100),
+            "{digits}: {counts:?}"
+        );
+    }
 }
 
 #[test]

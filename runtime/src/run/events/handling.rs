@@ -266,7 +266,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             .is_some()
             .then(|| self.energies(time, state));
         let hybrid = &mut self.course.hybrid;
-        let done = invoke(self.march, hybrid, ("", handler), time, state)?;
+        let done = invoke(self.march, hybrid, ("change", handler), time, state)?;
         let done = self.with_asked(done);
         self.follow(&done, time, state)?;
         self.course.hybrid.is_fresh = true;
