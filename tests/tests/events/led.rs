@@ -138,15 +138,14 @@ fn inputs_and_states_change_within_a_step() {
     let mut experiment = Experiment { run };
     let run = &mut experiment.run;
     // At rest until 0.7 s, then pushed by 2 N until 1.7 s, then thrown back at 1 m/s.
-    let push = |run: &mut Run<'_, Solved<Slider>, DormandPrince<f64>>, push: f64| {
-        run.change(|event| event.inputs_mut().push = push)
-    };
     assert_eq!(run.advance_to(0.7), Ok(Reached::Time));
-    push(run, 2.0).expect("an input");
+    run.change(|event| event.inputs_mut().push = 2.0)
+        .expect("an input");
     assert_eq!(run.advance_to(1.7), Ok(Reached::Time));
     assert!((run.sample().displacement(rail) - 1.0).abs() < 1e-12);
     assert!((run.sample().displacement_rate(rail) - 2.0).abs() < 1e-12);
-    push(run, 0.0).expect("an input");
+    run.change(|event| event.inputs_mut().push = 0.0)
+        .expect("an input");
     run.change(|event| event.set_displacement_rate(rail, -1.0))
         .expect("a state");
     assert_eq!(run.advance_to(9.0), Ok(Reached::End));
