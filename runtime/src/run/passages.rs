@@ -7,7 +7,7 @@ use crate::math::vec3::minus;
 use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::Driver;
-use crate::run::passing::{ACROSS, CLOSE, dot, judged};
+use crate::run::passing::{CLOSE, dot, judged};
 use crate::state::vector::{Array, StateParts as _, Vector as _};
 
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
@@ -109,10 +109,9 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         };
         let size = self.places(state);
         let least = self.course.passing.least_of(&judged, (time, end), size);
-        let across = S::constant(ACROSS) * least;
         let next = (judged.from_start * (end - time)).min(S::constant(0.5) * step);
-        // It has failed though it was across.
-        if step <= across && self.course.passing.limit.is_some() {
+        // It has failed though it has just gone across.
+        if self.course.passing.last == Some(time) {
             return false;
         }
         self.course.passing.plan(next, least, place);

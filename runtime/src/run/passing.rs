@@ -103,7 +103,7 @@ const BENT: f64 = 1e-7;
 const LEAST: f64 = 4096.0;
 
 /// How many of them lead across at once.
-pub(super) const ACROSS: f64 = 4.0;
+const ACROSS: f64 = 4.0;
 
 /// The same in units in the last place of the time, and of places on the way.
 const LEAST_DIGITS: f64 = 64.0;
@@ -218,6 +218,12 @@ impl<S: Real> Passing<S> {
     /// Forces may jump where the segment ends.
     pub(crate) fn ends_with_a_jump(&mut self) {
         self.is_cut = false;
+    }
+
+    /// Forgets what was planned from the end of a segment on that has not reached it.
+    pub(crate) fn forget_plan(&mut self) {
+        (self.limit, self.next, self.across) = (None, None, None);
+        self.ends_with_a_jump();
     }
 
     /// Whether a segment goes on from a time (s) as the one before it ended.

@@ -151,6 +151,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             way.at = before;
         }
         if way.leg.under_way.is_some() {
+            self.course.passing.forget_plan();
             self.close(&mut way.leg, &mut way.at);
         }
         if was_open {
