@@ -102,20 +102,21 @@ impl<P: Solvable, I: Integrator<P::Number, Equations<P>>> Leads<P> for I {}
 /// let (rod, hinge) = (Rod::default(), Rod::HANDLES.hinge);
 /// let mut run = rod
 ///     .simulation(StandardLagrange, DormandPrince::default())
-///     .on("bottom", Crossing::Either, move |sample| sample.angle(hinge) + 1.5, |_| ())
-///     .begin(0.0..=2.0)?;
-/// let mut swings = 0;
+///     .on("stop", Crossing::Falling, move |sample| sample.angle(hinge) + 1.0, |_| ())
+///     .begin(0.0..=1.2)?;
+/// let mut bounces = 0;
 /// loop {
 ///     match run.advance()? {
-///         Reached::Event("bottom") => {
-///             swings += 1;
-///             run.change(|event| event.set_angle_rate(hinge, 0.0))?; // somebody holds it
+///         Reached::Event("stop") => {
+///             bounces += 1;
+///             run.change(|event| event.set_angle_rate(hinge, -0.5 * event.angle_rate(hinge)))?;
 ///         }
 ///         Reached::End => break,
 ///         _ => {}
 ///     }
 /// }
-/// assert!(swings > 1 && run.report().warnings().is_empty());
+/// assert!(bounces > 1 && run.sample().angle(hinge) > -1.0);
+/// assert!(run.report().warnings().is_empty());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Run<'a, P: Solvable, I: Leads<P>, H = NothingHappens> {
