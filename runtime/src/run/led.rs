@@ -40,7 +40,7 @@ pub enum Reached {
     /// An event, by its name: its handlers were called. Of several at once it is the first that the
     /// simulation was given.
     Event(&'static str),
-    /// Another instant from which the motion goes on in a new way: the mode of an interaction or
+    /// Another instant from which the motion goes on in a new way. The mode of an interaction or
     /// the side of a law has changed, or a handler has set the state.
     Change,
     /// The end of the interval, or a handler has stopped the run. It goes no farther.
@@ -54,7 +54,7 @@ type OnTheWay<'r, P> = (
     &'r mut Way<<P as Posed>::Number, <P as Posed>::Mechanism>,
 );
 /// A run that is led, or why it does not begin.
-type Begun<'a, P, I, H> = Result<Run<'a, P, I, H>, Failed<P>>;
+type BeginResult<'a, P, I, H> = Result<Run<'a, P, I, H>, Failed<P>>;
 type Carried<P> = Heeding<<P as Posed>::Number, <P as Posed>::Mechanism, Led<<P as Posed>::Forces>>;
 type Equations<P> = Dynamics<
     <P as Posed>::Number,
@@ -158,7 +158,7 @@ where
     /// Those of [`Simulation::run`](crate::Simulation::run) at a start. [`Fault::NotLed`] of a
     /// simulation that is [`verified`](crate::Simulation::verified), keeps checkpoints or records a
     /// trajectory.
-    pub fn begin(self, interval: RangeInclusive<S>) -> Begun<'a, Problem<S, M, F, A, C>, I, H>
+    pub fn begin(self, interval: RangeInclusive<S>) -> BeginResult<'a, Problem<S, M, F, A, C>, I, H>
     where
         I: Leads<Problem<S, M, F, A, C>>,
     {

@@ -69,8 +69,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             if way.at.time >= time {
                 return Ok(Pulled::Time);
             }
-            if let Some(handled) = self.take_next(way, first_output)? {
-                return Ok(Pulled::Instant(handled));
+            if let Some(pulled) = self.take_next(way, first_output)? {
+                return Ok(pulled);
             }
         }
         if way.leg.taken.reached() > time {
@@ -84,16 +84,17 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         self.accept_last(way)
     }
 
-    /// Takes a step, or goes across a length of zero: what was done behind it.
+    /// Takes a step, or goes across a length of zero: what was done behind it. Of a step that must
+    /// be shorter there is nothing to say, and it is tried again.
     fn take_next(
         &mut self,
         way: &mut Way<S, M>,
         first_output: &dyn Fn(S) -> S,
-    ) -> Result<Option<Handled>, Fault> {
+    ) -> Result<Option<Pulled>, Fault> {
         if way.leg.under_way.is_none() {
             let first = first_output(way.leg.from);
             if !self.open(&mut way.leg, first, &mut way.at, None)? {
-                return self.close_and_handle(way).map(Some);
+                return self.close_and_handle(way);
             }
         }
         let Some(begun) = way.leg.under_way else {
@@ -103,7 +104,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         way.began = way.at.time;
         way.is_open = self.take(&mut way.at, left, &mut way.leg.taken)?;
         if !way.is_open {
-            return self.close_and_handle(way).map(Some);
+            return self.close_and_handle(way);
         }
         self.keep_to_budget(&begun, 1)?;
         Ok(None)
@@ -128,7 +129,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         self.count_looks(taken, begun, seen.is_some());
         self.commit(taken, begun, &mut way.at)?;
         if way.leg.taken.event.is_some() || way.leg.is_done() {
-            return self.close_and_handle(way).map(Pulled::Instant);
+            let pulled = self.close_and_handle(way)?;
+            return Ok(pulled.unwrap_or(Pulled::Step));
         }
         self.convert(&mut way.at);
         Ok(Pulled::Step)
@@ -160,12 +162,13 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         Ok(())
     }
 
-    /// Ends the integration under way, and does what is to be done there.
-    fn close_and_handle(&mut self, way: &mut Way<S, M>) -> Result<Handled, Fault> {
-        if self.close(&mut way.leg, &mut way.at) {
-            self.handle(&mut way.at)
-        } else {
-            Ok(Handled::default())
+    /// Ends the integration under way, and does what is to be done there; nothing behind a step
+    /// that must be shorter.
+    fn close_and_handle(&mut self, way: &mut Way<S, M>) -> Result<Option<Pulled>, Fault> {
+        if !self.close(&mut way.leg, &mut way.at) {
+            return Ok(None);
         }
+        self.handle(&mut way.at)
+            .map(|handled| Some(Pulled::Instant(handled)))
     }
 }

@@ -3,15 +3,17 @@
 
 use core::f64::consts::FRAC_PI_2;
 
+use holonom::dynamics::Problem;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
+use holonom::run::{Reached, Run};
 use holonom::{
     Adams, AdamsBashforthMoulton4, Bdf, GeneralizedAlpha, Heun, Midpoint, RadauIIA, Runs,
     SemiImplicitEuler,
 };
 
 use super::oscillators::arcs;
-use super::run;
+use super::{run, tight};
 
 /// A bead that is drawn towards a point on its rail or beside it, with a hard ball about the point.
 /// No other mechanism here has points that meet.
@@ -72,8 +74,8 @@ fn a_bead_that_passes_the_point_that_draws_it_is_right_after_ten_periods() {
     }
 }
 
-/// A bead on a spring of 4 N/m that pulls by 2 N at length zero, where it has no direction: that of
-/// an actuator is then zero, and not told from one.
+/// A bead on a spring of 4 N/m that pulls by 2 N at length zero, where it has no direction. The
+/// force of an actuator is zero there, so that a run does not feel it.
 #[derive(Mechanism)]
 #[mechanism(coordinates = "joints")]
 struct Sprung {
@@ -85,8 +87,8 @@ struct Sprung {
     spring: SpringDamper,
 }
 
-/// A step on the way to the point may end within some last digits of it, in one of two hundred
-/// runs: here those from these starts (m), with these tolerances.
+/// A step on the way to the point may end within some last digits of it. It does from these starts
+/// (m), with these tolerances.
 #[test]
 fn a_bead_passes_its_point_wherever_its_steps_end() {
     let (mechanism, h) = (Sprung::default(), Sprung::HANDLES);
@@ -116,6 +118,29 @@ fn a_bead_passes_its_point_wherever_its_steps_end() {
         let gained = 0.5 * rate * rate + energy(place.abs()) - energy(x);
         assert!(gained.abs() < 1e-5, "from {x} m: {gained:e} J");
     }
+}
+
+/// A step that is refused, to be tried again shorter, is not shown to who leads a run.
+#[test]
+fn every_step_of_a_run_that_is_led_goes_on() {
+    let mechanism = Sprung::default();
+    let simulation = mechanism.simulation(StandardLagrange, DormandPrince::new(tight()));
+    let mut run = simulation.begin(0.0..=5.0).expect("it begins");
+    let mut passages = 0;
+    loop {
+        let (time, side) = (run.time(), is_beyond(&run));
+        if run.advance().expect("it swings") == Reached::End {
+            break;
+        }
+        assert!(run.time() > time, "{time}");
+        passages += usize::from(is_beyond(&run) != side);
+    }
+    assert!(passages > 2, "{passages}");
+}
+
+/// Whether the bead is beyond its point.
+fn is_beyond(run: &Run<'_, Problem<f64, Sprung, StandardLagrange>, DormandPrince<f64>>) -> bool {
+    run.sample().displacement(Sprung::HANDLES.rail) > -1.0
 }
 
 /// A quarter of the period (s) under a pull of 1 N towards a point that is so far (m) beside the

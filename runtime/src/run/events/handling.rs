@@ -74,11 +74,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         }
         self.begin_interactions()?;
         self.stand(*time, state, true)?;
-        let before = self
-            .course
-            .monitor
-            .is_some()
-            .then(|| self.energies(*time, state));
+        let before = self.watched_energies(*time, state);
         let done = self.call(Called::Controllers, *time, state)?;
         self.stand(*time, state, true)?;
         if self.switch(*time, state, true)? {
@@ -101,11 +97,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if self.course.hybrid.is_empty || *time >= self.course.hybrid.end {
             return Ok(false);
         }
-        let before = self
-            .course
-            .monitor
-            .is_some()
-            .then(|| self.energies(*time, state));
+        let before = self.watched_energies(*time, state);
         let done = self.call(Called::Controllers, *time, state)?;
         if done.changed {
             self.switch(*time, state, true)?;
@@ -126,11 +118,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         }: &mut StateAt<S, M>,
     ) -> Result<Done, Fault> {
         let time = *time;
-        let before = self
-            .course
-            .monitor
-            .is_some()
-            .then(|| self.energies(time, state));
+        let before = self.watched_energies(time, state);
         if is_found {
             self.read_all(time, state, &mut |watch, reading| {
                 watch.correct(reading.here, reading.round_off);
@@ -179,7 +167,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
 
     /// Tells the monitor what energy (J) an instant has put in, if it was known before.
     fn account(&mut self, before: Option<S>, time: S, state: &M::State<S>) {
-        let after = before.map(|_| self.energies(time, state));
+        let after = self.watched_energies(time, state);
         if let (Some(monitor), Some(before), Some(after)) =
             (&mut self.course.monitor, before, after)
         {
@@ -187,10 +175,11 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         }
     }
 
-    /// Kinetic and potential energy (J).
-    fn energies(&self, time: S, state: &M::State<S>) -> S {
+    /// Kinetic and potential energy (J), where there is a monitor to be told of it.
+    fn watched_energies(&self, time: S, state: &M::State<S>) -> Option<S> {
+        self.course.monitor.as_ref()?;
         let constants = self.march.equations().constants();
-        M::kinetic_energy(constants, state) + M::potential_energy(constants, time, state)
+        Some(M::kinetic_energy(constants, state) + M::potential_energy(constants, time, state))
     }
 
     /// Calls the handlers of all events that were found, in the order in which these pass their
@@ -260,11 +249,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         }: &mut StateAt<S, M>,
     ) -> Result<bool, Fault> {
         let time = *time;
-        let before = self
-            .course
-            .monitor
-            .is_some()
-            .then(|| self.energies(time, state));
+        let before = self.watched_energies(time, state);
         let hybrid = &mut self.course.hybrid;
         let done = invoke(self.march, hybrid, ("change", handler), time, state)?;
         let done = self.with_asked(done);
