@@ -19,10 +19,15 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
 use crate::monitor::{Monitor, Seen, Work};
+use crate::nonsmooth::status::Tracked;
 
 /// The power (W) of forces and drivers where a step ends, and their work over it where it was
 /// looked for; `None` where it is not known.
 pub(crate) type Exchanged<S> = (Option<S>, Option<Work<S>>);
+
+/// What changes interactions, with the equations beside them.
+pub(crate) type Change<'c, S, M> =
+    dyn FnMut(&dyn Equations<S, M>, &mut [Tracked<S, M>]) -> Result<(), Fault> + 'c;
 
 /// The equations of motion of a run.
 pub(crate) trait Equations<S: Real, M: Mechanism>: Evaluate<S, M> {
@@ -89,7 +94,19 @@ pub(crate) trait Equations<S: Real, M: Mechanism>: Evaluate<S, M> {
     ///
     /// # Errors
     /// Those of that function.
-    fn strike(&self, time: S, bodies: &M::State<S>, is_moved: bool) -> Result<M::State<S>, Fault>;
+    fn strike(
+        &mut self,
+        time: S,
+        bodies: &M::State<S>,
+        is_moved: bool,
+    ) -> Result<M::State<S>, Fault>;
+
+    /// Calls with the interactions, to be changed, and with the equations, where they are as they
+    /// were until then.
+    ///
+    /// # Errors
+    /// That of the call; the interactions are then as before.
+    fn change_interactions(&mut self, change: &mut Change<'_, S, M>) -> Result<(), Fault>;
 
     /// See [`Dynamics::begin`].
     fn begin(&self, monitor: &mut Monitor<S, M>, time: S, bodies: &M::State<S>);
@@ -196,13 +213,23 @@ where
         Ok(self.bodies_near(&moved, bodies))
     }
 
-    fn strike(&self, time: S, bodies: &M::State<S>, is_moved: bool) -> Result<M::State<S>, Fault> {
+    fn strike(
+        &mut self,
+        time: S,
+        bodies: &M::State<S>,
+        is_moved: bool,
+    ) -> Result<M::State<S>, Fault> {
         let mut state = self.nearest(bodies);
         if !is_moved && let Some(held) = self.held(time, &state)? {
             state = held;
         }
         let next = self.switched(time, &state, is_moved)?;
         Ok(self.bodies_near(&next, bodies))
+    }
+
+    fn change_interactions(&mut self, change: &mut Change<'_, S, M>) -> Result<(), Fault> {
+        let changed = self.change_list(|equations, list| change(equations, list.as_mut()))?;
+        changed.map_or_else(|| change(self, &mut []), Ok)
     }
 
     fn begin(&self, monitor: &mut Monitor<S, M>, time: S, bodies: &M::State<S>) {

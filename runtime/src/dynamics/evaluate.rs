@@ -12,9 +12,12 @@ use crate::mechanism::coordinates::{
     Absolute, AbsoluteEquations, Coordinates, EquationsIn, Evaluation, First, Prepared,
 };
 use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms};
+use crate::mechanism::limits::Several;
 use crate::nonsmooth::columns::Setting;
+use crate::nonsmooth::efforts::Show;
+use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::status::Tracked;
-use crate::nonsmooth::task::Task;
+use crate::nonsmooth::task::{Task, perform};
 use crate::state::vector::{Array, MovingState, StateParts};
 
 /// The equations of motion in some coordinates, with a formulation and forces of a closure.
@@ -164,20 +167,20 @@ where
         rates: &mut C::State<S>,
         multipliers: &mut C::Multipliers<S>,
     ) -> Result<Parts<S>, Fault> {
-        self.parts(time, state, rates, multipliers, false)
+        self.parts(time, state, rates, multipliers, None)
     }
 
-    /// The same; leaves the efforts of interactions in their statuses where they are wanted.
+    /// The same; shows what interactions exert where that is wanted.
     pub(super) fn parts(
         &self,
         time: S,
         state: &C::State<S>,
         rates: &mut C::State<S>,
         multipliers: &mut C::Multipliers<S>,
-        wants_efforts: bool,
+        show: Option<&mut Show<'_, S>>,
     ) -> Result<Parts<S>, Fault> {
         let (parts, applied_power) = self.begin(time, state, rates, |first, rates| {
-            self.finish((time, state), first, rates, multipliers, wants_efforts)
+            self.finish((time, state), first, rates, multipliers, show)
         });
         let parts = parts?;
         Ok(Parts {
@@ -215,13 +218,12 @@ where
         first: &First<'_, S, M, C>,
         rates: &mut C::State<S>,
         multipliers: &mut C::Multipliers<S>,
-        wants_efforts: bool,
+        show: Option<&mut Show<'_, S>>,
     ) -> Result<Parts<S>, Fault> {
         let mut solution = begun::<S, M, F, C>(first)?;
         let saddle = self.refined((time, state), first, rates, &mut solution)?;
         if A::INTERACTS {
-            let task = Task::Complete(&mut solution, wants_efforts);
-            let completed = self.interact(&self.setting(saddle, rates), task);
+            let completed = self.complete(&self.setting(saddle, rates), &mut solution, show);
             completed.map_err(explained_later)?;
         }
         let constants = &self.equations.constants;
@@ -274,26 +276,49 @@ where
         }
     }
 
-    /// Has the interactions do something, with the reactions of joints where these are asked for.
-    pub(super) fn interact(
+    /// Completes a solution by the efforts of interactions, with the reactions of joints where
+    /// these are asked for.
+    fn complete(
         &self,
         setting: &Setting<'_, S, M, F, C>,
-        task: Task<'_, S, M, C>,
+        solution: &mut Solution<S, M, C>,
+        show: Option<&mut Show<'_, S>>,
     ) -> Result<(), Fault> {
-        if C::IS_RELATIVE && task.asks_for_loads(self.forces.interactions()) {
-            self.interact_by_reactions(setting, task)
+        let mut list = self.forces.interactions().iter();
+        if C::IS_RELATIVE && list.any(|tracked| tracked.asks_for_load(show.is_some())) {
+            self.with_reactions(setting, |reactions| {
+                let reactions = Some(reactions);
+                self.forces.complete(setting, reactions, solution, show)
+            })
         } else {
-            self.forces.interact(setting, None, task)
+            self.forces.complete(setting, None, solution, show)
         }
     }
 
-    /// The same by the equations in absolute coordinates, too: joints of a tree have no multipliers
-    /// in relative ones.
-    #[inline(never)]
-    fn interact_by_reactions(
+    /// Changes interactions between two steps, with the reactions of joints where these are asked
+    /// for.
+    pub(super) fn interact<L: Several<Tracked<S, M>>>(
         &self,
         setting: &Setting<'_, S, M, F, C>,
+        list: &mut L,
         task: Task<'_, S, M, C>,
+    ) -> Result<(), Fault> {
+        if C::IS_RELATIVE && task.asks_for_loads(list.as_ref()) {
+            self.with_reactions(setting, |reactions| {
+                perform(setting, Some(reactions), list, task)
+            })
+        } else {
+            perform(setting, None, list, task)
+        }
+    }
+
+    /// Calls with the equations in absolute coordinates, too: joints of a tree have no multipliers
+    /// in relative ones.
+    #[inline(never)]
+    fn with_reactions(
+        &self,
+        setting: &Setting<'_, S, M, F, C>,
+        then: impl FnOnce(Reactions<'_, S, M, F>) -> Result<(), Fault>,
     ) -> Result<(), Fault> {
         let of_bodies = Evaluator::<S, M, F, A, Absolute> {
             equations: self.absolute,
@@ -305,8 +330,7 @@ where
         let saddle = &setting.saddle;
         C::with_bodies(saddle.constants, saddle.state, |bodies| {
             of_bodies.set_up(saddle.time, bodies, |absolute, solution| {
-                let reactions = Some((absolute, &solution.multipliers));
-                self.forces.interact(setting, reactions, task)
+                then((absolute, &solution.multipliers))
             })
         })
     }
@@ -393,8 +417,19 @@ pub(crate) trait Evaluate<S: Real, M: Mechanism> {
     /// The interactions, with their statuses.
     fn interactions(&self) -> &[Tracked<S, M>];
 
-    /// Leaves the efforts of interactions in their statuses.
-    fn find_efforts(&self, time: S, bodies: &M::State<S>) -> Result<(), Fault>;
+    /// The same, to be changed.
+    fn interactions_mut(&mut self) -> &mut [Tracked<S, M>];
+
+    /// Shows what all interactions exert.
+    fn find_efforts(
+        &self,
+        time: S,
+        bodies: &M::State<S>,
+        show: &mut Show<'_, S>,
+    ) -> Result<(), Fault>;
+
+    /// Leaves it in their statuses.
+    fn keep_efforts(&mut self, time: S, bodies: &M::State<S>) -> Result<(), Fault>;
 }
 
 impl<S, M, F, A, C> Evaluate<S, M> for Dynamics<S, M, F, A, C>
@@ -418,8 +453,23 @@ where
         self.forces.interactions()
     }
 
+    fn interactions_mut(&mut self) -> &mut [Tracked<S, M>] {
+        self.tracked_mut()
+    }
+
     #[inline(never)]
-    fn find_efforts(&self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
-        self.efforts(time, &self.nearest(bodies))
+    fn find_efforts(
+        &self,
+        time: S,
+        bodies: &M::State<S>,
+        show: &mut Show<'_, S>,
+    ) -> Result<(), Fault> {
+        self.efforts(time, &self.nearest(bodies), show)
+    }
+
+    #[inline(never)]
+    fn keep_efforts(&mut self, time: S, bodies: &M::State<S>) -> Result<(), Fault> {
+        let state = self.nearest(bodies);
+        Self::keep_efforts(self, time, &state)
     }
 }

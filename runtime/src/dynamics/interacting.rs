@@ -7,6 +7,7 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::Task;
@@ -40,18 +41,62 @@ where
         Ok(())
     }
 
-    /// Leaves the efforts of interactions in their statuses.
-    pub(crate) fn efforts(&self, time: S, state: &C::State<S>) -> Result<(), Fault> {
+    /// The interactions, to be changed.
+    pub(crate) fn tracked_mut(&mut self) -> &mut [Tracked<S, M>] {
+        match self.forces.list_mut() {
+            Some(list) => list.as_mut(),
+            None => &mut [],
+        }
+    }
+
+    /// Calls with the interactions, to be changed, and with the equations, where they are as they
+    /// were until then. `None` where there are none.
+    ///
+    /// # Errors
+    /// That of the call; the interactions are then as before.
+    pub(super) fn change_list<R>(
+        &mut self,
+        change: impl FnOnce(&Self, &mut A::List) -> Result<R, Fault>,
+    ) -> Result<Option<R>, Fault> {
+        let Some(mut list) = self.forces.list_mut().map(|list| list.clone()) else {
+            return Ok(None);
+        };
+        let changed = change(self, &mut list)?;
+        if let Some(place) = self.forces.list_mut() {
+            *place = list;
+        }
+        Ok(Some(changed))
+    }
+
+    /// Shows what all interactions exert in a state.
+    pub(crate) fn efforts(
+        &self,
+        time: S,
+        state: &C::State<S>,
+        show: &mut Show<'_, S>,
+    ) -> Result<(), Fault> {
         if !A::INTERACTS {
             return Ok(());
         }
         let (mut rates, mut multipliers) = (C::State::zeros(), Array::zeros());
         let evaluator = self.evaluator();
-        match evaluator.parts(time, state, &mut rates, &mut multipliers, true) {
+        match evaluator.parts(time, state, &mut rates, &mut multipliers, Some(show)) {
             Ok(_) => Ok(()),
             Err(Fault::StateNotFinite) => Err(evaluator.fault(time, state)),
             Err(fault) => Err(fault),
         }
+    }
+
+    /// Leaves what all interactions exert in a state in their statuses.
+    pub(crate) fn keep_efforts(&mut self, time: S, state: &C::State<S>) -> Result<(), Fault> {
+        let kept = self.change_list(|dynamics, list| {
+            dynamics.efforts(time, state, &mut |all| {
+                for (tracked, exerted) in list.as_mut().iter_mut().zip(all) {
+                    tracked.status.exerted = *exerted;
+                }
+            })
+        });
+        kept.map(|_| ())
     }
 
     /// The power (W) of friction that slides by its load, which is no force of a closure; `None`
@@ -65,35 +110,41 @@ where
         if !A::INTERACTS || !self.tracked().iter().any(Tracked::slips_by_load) {
             return Some(S::zero());
         }
-        self.efforts(time, state).ok()?;
         let scene = Scene::<S, M> {
             constants: self.constants(),
             time,
             bodies,
         };
-        let slipping = self
-            .tracked()
-            .iter()
-            .filter(|tracked| tracked.slips_by_load());
-        Some(slipping.fold(S::zero(), |power, tracked| {
-            let rate = tracked.interaction.quantity.rate(&scene);
-            tracked.status.get().effort.fused(rate, power)
-        }))
+        let mut power = S::zero();
+        let found = self.efforts(time, state, &mut |all| {
+            let list = self.tracked().iter().zip(all);
+            for (tracked, exerted) in list.filter(|(tracked, _)| tracked.slips_by_load()) {
+                let rate = tracked.interaction.quantity.rate(&scene);
+                power = exerted.effort.fused(rate, power);
+            }
+        });
+        found.ok().map(|()| power)
     }
 
     /// The state with what is held brought back to where it is held, at rest; `None` where nothing
     /// is.
-    pub(crate) fn held(&self, time: S, state: &C::State<S>) -> Result<Option<C::State<S>>, Fault> {
+    pub(crate) fn held(
+        &mut self,
+        time: S,
+        state: &C::State<S>,
+    ) -> Result<Option<C::State<S>>, Fault> {
         let holds = |tracked: &Tracked<S, M>| tracked.mode().holds();
         if !A::INTERACTS || !self.tracked().iter().any(holds) {
             return Ok(None);
         }
         let mut faster = C::Velocities::<S>::zeros();
         let mut farther = C::Velocities::<S>::zeros();
-        let evaluator = self.evaluator();
-        evaluator.set_up(time, state, |setting, _| {
-            let task = Task::Correct([&mut faster, &mut farther]);
-            evaluator.interact(setting, task)
+        self.change_list(|dynamics, list| {
+            let evaluator = dynamics.evaluator();
+            evaluator.set_up(time, state, |setting, _| {
+                let task = Task::Correct([&mut faster, &mut farther]);
+                evaluator.interact(setting, list, task)
+            })
         })?;
         let way = C::way(self.own_constants(), time, state, &farther);
         let mut next = state.plus([(S::one(), &way)]);
@@ -104,22 +155,27 @@ where
     /// The state after the impulses of an instant; the statuses have the modes that follow.
     #[inline(never)]
     pub(crate) fn switched(
-        &self,
+        &mut self,
         time: S,
         state: &C::State<S>,
         is_moved: bool,
     ) -> Result<C::State<S>, Fault> {
         let mut change = C::Velocities::<S>::zeros();
-        let evaluator = self.evaluator();
-        evaluator.set_up(time, state, |setting, _| {
-            let task = Task::Strike(&mut change, is_moved);
-            evaluator.interact(setting, task)
+        self.change_list(|dynamics, list| {
+            let evaluator = dynamics.evaluator();
+            evaluator.set_up(time, state, |setting, _| {
+                let task = Task::Strike(&mut change, is_moved);
+                evaluator.interact(setting, list, task)
+            })
         })?;
         let mut next = *state;
         add(next.rates_slice_mut(), S::one(), change.as_slice());
-        evaluator.set_up(time, &next, |setting, solution| {
-            let task = Task::Choose(solution);
-            evaluator.interact(setting, task)
+        self.change_list(|dynamics, list| {
+            let evaluator = dynamics.evaluator();
+            evaluator.set_up(time, &next, |setting, solution| {
+                let task = Task::Choose(solution);
+                evaluator.interact(setting, list, task)
+            })
         })?;
         Ok(next)
     }

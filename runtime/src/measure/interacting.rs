@@ -3,7 +3,7 @@
 use core::fmt::{self, Debug};
 
 use crate::error::Fault;
-use crate::formulation::Formulation;
+use crate::formulation::{Formulation, Solution};
 use crate::math::scalar::{Real, Scalar};
 use crate::measure::load::{AppliedForces, Loads};
 use crate::mechanism::coordinates::Coordinates;
@@ -11,11 +11,11 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::{Nothing, Several, Visit};
 use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::described::renewed;
+use crate::nonsmooth::efforts::{Show, complete};
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
-use crate::nonsmooth::task::{Task, perform};
 use crate::state::sealed::Sealed;
 
 /// Further forces `A`, and `K` interactions with the limits of the description among them
@@ -56,6 +56,7 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>, const K: usize> AppliedForce
 
     type Tracked = [Tracked<S, M>; K];
     type Own = [Tracked<S, M>; K];
+    type List = Nothing;
     type With<B: AppliedForces<S, M>> = Interacting<S, M, A::With<B>, K>;
 
     #[inline(always)]
@@ -95,6 +96,7 @@ impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Un
 
     type Tracked = A::Own;
     type Own = A::Own;
+    type List = Nothing;
     type With<B: AppliedForces<S, M>> = Unlimited<A::With<B>>;
 
     #[inline(always)]
@@ -165,14 +167,15 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> Heeding<S, M, A> {
     }
 }
 
-/// What is asked of the interactions.
-struct Perform<'a, 't, S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>> {
+/// A solution that interactions complete.
+struct Complete<'a, 't, 's, S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>> {
     setting: &'a Setting<'a, S, M, F, C>,
     reactions: Option<Reactions<'a, S, M, F>>,
-    task: Task<'t, S, M, C>,
+    solution: &'t mut Solution<S, M, C>,
+    show: Option<&'t mut Show<'s, S>>,
 }
 
-impl<S, M, F, C> Visit<Tracked<S, M>> for Perform<'_, '_, S, M, F, C>
+impl<S, M, F, C> Visit<Tracked<S, M>> for Complete<'_, '_, '_, S, M, F, C>
 where
     S: Real,
     M: Mechanism,
@@ -184,7 +187,8 @@ where
     // One piece of code, apart from what a step without interactions is.
     #[inline(never)]
     fn visit<const K: usize>(self, list: &[Tracked<S, M>; K]) -> Result<(), Fault> {
-        perform(self.setting, self.reactions, list, self.task)
+        let completed = (self.solution, self.show);
+        complete(self.setting, self.reactions, list, completed)
     }
 }
 
@@ -196,6 +200,7 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Heed
 
     type Tracked = Nothing;
     type Own = Nothing;
+    type List = A::Tracked;
     type With<B: AppliedForces<S, M>> = B;
 
     #[inline(always)]
@@ -223,27 +228,33 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Heed
         self.list.as_ref()
     }
 
+    #[inline(always)]
+    fn list_mut(&mut self) -> Option<&mut A::Tracked> {
+        Some(&mut self.list)
+    }
+
     fn renew(&mut self, parameters: &M::Parameters<S>) {
         let fresh = self.forces.tracked(parameters);
-        for (fresh, now) in fresh.as_ref().iter().zip(self.list.as_ref()) {
-            fresh.status.set(now.status.get());
+        for (now, fresh) in self.list.as_mut().iter_mut().zip(fresh.as_ref()) {
+            now.interaction = fresh.interaction;
         }
-        self.list = fresh;
     }
 
     #[inline(always)]
-    fn interact<F: Formulation<S>, C: Coordinates<M>>(
+    fn complete<F: Formulation<S>, C: Coordinates<M>>(
         &self,
         setting: &Setting<'_, S, M, F, C>,
         reactions: Option<Reactions<'_, S, M, F>>,
-        task: Task<'_, S, M, C>,
+        solution: &mut Solution<S, M, C>,
+        show: Option<&mut Show<'_, S>>,
     ) -> Result<(), Fault> {
-        let perform = Perform {
+        let complete = Complete {
             setting,
             reactions,
-            task,
+            solution,
+            show,
         };
-        self.list.visit(perform).unwrap_or(Ok(()))
+        self.list.visit(complete).unwrap_or(Ok(()))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Forces that a user applies at run time.
 
 use crate::error::Fault;
-use crate::formulation::Formulation;
+use crate::formulation::{Formulation, Solution};
 use crate::math::quaternion::{normalised, rotate, rotate_back};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read};
@@ -13,12 +13,12 @@ use crate::mechanism::handle::{BodyHandle, HasAngle, HasDisplacement, JointHandl
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::{Nothing, Several};
 use crate::nonsmooth::columns::Setting;
+use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::quantity::{JointQuantity, Quantity};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
-use crate::nonsmooth::task::Task;
 use crate::state::sealed::Sealed;
 use crate::state::vector::{Array, StateParts};
 
@@ -46,6 +46,10 @@ pub trait AppliedForces<S: Scalar, M: Mechanism>: Sealed {
     /// Those without the limits of the description.
     #[doc(hidden)]
     type Own: Several<Tracked<S, M>>;
+
+    /// The interactions that these forces hold, with their statuses.
+    #[doc(hidden)]
+    type List: Several<Tracked<S, M>>;
 
     /// The same with other forces.
     #[doc(hidden)]
@@ -78,6 +82,12 @@ pub trait AppliedForces<S: Scalar, M: Mechanism>: Sealed {
         &[]
     }
 
+    /// The same, to be changed; `None` where there are none.
+    #[doc(hidden)]
+    fn list_mut(&mut self) -> Option<&mut Self::List> {
+        None
+    }
+
     /// Takes the limits of the description by other parameters.
     #[doc(hidden)]
     fn renew(&mut self, _parameters: &M::Parameters<S>)
@@ -86,17 +96,19 @@ pub trait AppliedForces<S: Scalar, M: Mechanism>: Sealed {
     {
     }
 
-    /// Does what is asked for with the efforts of the interactions.
+    /// Completes a solution by the efforts of the interactions in their modes, and shows these
+    /// where that is wanted.
     ///
     /// # Errors
-    /// A fault of a formulation that iterates, modes that do not fit together.
+    /// A fault of a formulation that iterates, friction without a unique effort.
     #[doc(hidden)]
     #[inline(always)]
-    fn interact<F: Formulation<S>, C: Coordinates<M>>(
+    fn complete<F: Formulation<S>, C: Coordinates<M>>(
         &self,
         _setting: &Setting<'_, S, M, F, C>,
         _reactions: Option<Reactions<'_, S, M, F>>,
-        _task: Task<'_, S, M, C>,
+        _solution: &mut Solution<S, M, C>,
+        _show: Option<&mut Show<'_, S>>,
     ) -> Result<(), Fault>
     where
         S: Real,
@@ -119,6 +131,7 @@ impl<S: Scalar, M: Mechanism> AppliedForces<S, M> for NoForces {
 
     type Tracked = M::PerLimit<Tracked<S, M>>;
     type Own = Nothing;
+    type List = Nothing;
     type With<B: AppliedForces<S, M>> = B;
 
     #[inline(always)]
@@ -154,6 +167,7 @@ macro_rules! forces_of_a_run {
 
             type Tracked = A::Tracked;
             type Own = A::Own;
+            type List = Nothing;
             type With<B: AppliedForces<S, M>> = B;
 
             #[inline(always)]
@@ -179,22 +193,6 @@ macro_rules! forces_of_a_run {
                 forces
             }
 
-            fn interactions(&$this) -> &[Tracked<S, M>] {
-                A::interactions($forces)
-            }
-
-            #[inline(always)]
-            fn interact<F: Formulation<S>, C: Coordinates<M>>(
-                &$this,
-                setting: &Setting<'_, S, M, F, C>,
-                reactions: Option<Reactions<'_, S, M, F>>,
-                task: Task<'_, S, M, C>,
-            ) -> Result<(), Fault>
-            where
-                S: Real,
-            {
-                A::interact($forces, setting, reactions, task)
-            }
         }
     };
 }
@@ -218,6 +216,7 @@ where
 
     type Tracked = M::PerLimit<Tracked<S, M>>;
     type Own = Nothing;
+    type List = Nothing;
     type With<B: AppliedForces<S, M>> = B;
 
     #[inline]

@@ -16,12 +16,15 @@ pub struct JointLimits<S> {
 
 /// Several things, as many as the type says: an array, or [`Nothing`].
 #[doc(hidden)]
-pub trait Several<T>: AsRef<[T]> + Clone {
+pub trait Several<T>: AsRef<[T]> + AsMut<[T]> + Clone {
     /// How many.
     const COUNT: usize;
 
     /// Visits them as an array. [`Nothing`] has none to visit, so nothing is compiled for it.
     fn visit<V: Visit<T>>(&self, visit: V) -> Option<V::Output>;
+
+    /// The same, to change them.
+    fn visit_mut<V: VisitMut<T>>(&mut self, visit: V) -> Option<V::Output>;
 }
 
 /// What is done with an array of any length.
@@ -32,6 +35,16 @@ pub trait Visit<T> {
 
     /// Does it.
     fn visit<const K: usize>(self, all: &[T; K]) -> Self::Output;
+}
+
+/// What changes an array of any length.
+#[doc(hidden)]
+pub trait VisitMut<T> {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn visit<const K: usize>(self, all: &mut [T; K]) -> Self::Output;
 }
 
 /// No things.
@@ -46,11 +59,23 @@ impl<T> AsRef<[T]> for Nothing {
     }
 }
 
+impl<T> AsMut<[T]> for Nothing {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut [T] {
+        &mut []
+    }
+}
+
 impl<T> Several<T> for Nothing {
     const COUNT: usize = 0;
 
     #[inline(always)]
     fn visit<V: Visit<T>>(&self, _visit: V) -> Option<V::Output> {
+        None
+    }
+
+    #[inline(always)]
+    fn visit_mut<V: VisitMut<T>>(&mut self, _visit: V) -> Option<V::Output> {
         None
     }
 }
@@ -60,6 +85,11 @@ impl<T: Clone, const K: usize> Several<T> for [T; K] {
 
     #[inline(always)]
     fn visit<V: Visit<T>>(&self, visit: V) -> Option<V::Output> {
+        Some(visit.visit(self))
+    }
+
+    #[inline(always)]
+    fn visit_mut<V: VisitMut<T>>(&mut self, visit: V) -> Option<V::Output> {
         Some(visit.visit(self))
     }
 }

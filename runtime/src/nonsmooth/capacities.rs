@@ -96,7 +96,7 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
         core::array::from_fn(|index| {
             let tracked = &self.list[index];
             tracked.friction()?;
-            match tracked.status.get().next {
+            match tracked.status.next {
                 Next::Moving(sign) => Some(sign),
                 Next::Still if problem.matrix[index][index] <= S::zero() => {
                     let acceleration = problem.offset[index];
@@ -135,7 +135,7 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
     pub(super) fn bounds(&self, index: usize, sliding: Option<S>, load: S) -> (S, S) {
         let tracked = &self.list[index];
         let infinite = S::constant(f64::INFINITY);
-        match (tracked.status.get().next, sliding) {
+        match (tracked.status.next, sliding) {
             (Next::On(sign), _) if sign > S::zero() => (S::zero(), infinite),
             (Next::On(_), _) => (-infinite, S::zero()),
             (_, Some(_)) => {
@@ -156,7 +156,7 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
         let (Some(sign), Some(friction)) = (sliding, tracked.friction()) else {
             return S::zero();
         };
-        let rate = match tracked.status.get().next {
+        let rate = match tracked.status.next {
             Next::Still => S::zero(),
             _ => self.rates[index],
         };
@@ -170,7 +170,7 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
             return S::zero();
         };
         // What was found at its capacity does not fall back by round-off.
-        let status = tracked.status.get();
+        let status = tracked.status;
         let slips = status.is_found && status.before == InteractionMode::Sticking;
         if slips {
             (S::one() - part::<S>(SLIPS, ROUND_OFF)) * friction.at_rest()
@@ -253,7 +253,7 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
         };
         for (index, tracked) in self.list.iter().enumerate() {
             let effort = self.effort_of_sliding(index, sliding[index]);
-            match (tracked.status.get().next, sliding[index]) {
+            match (tracked.status.next, sliding[index]) {
                 (_, Some(_)) if tracked.bearing().is_some() => {
                     guess.coefficients[index] = Some(effort);
                 }
@@ -275,7 +275,7 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
         let mut guess = self.everything_sticks(sliding);
         for (index, tracked) in self.list.iter().enumerate() {
             let place = solution.places[index];
-            let sticks = tracked.status.get().next == Next::Still && sliding[index].is_none();
+            let sticks = tracked.status.next == Next::Still && sliding[index].is_none();
             let coefficient = match place {
                 Place::Inside => continue,
                 Place::Upper => self.at_rest(index),

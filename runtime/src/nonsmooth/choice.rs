@@ -35,7 +35,7 @@ const OF_BLOCKED: f64 = 1e4;
 pub(crate) fn modes<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
     reactions: Option<Reactions<'_, S, M, F>>,
-    list: &[Tracked<S, M>; K],
+    list: &mut [Tracked<S, M>; K],
     free: &Solution<S, M, C>,
 ) -> Result<(), Fault>
 where
@@ -45,14 +45,14 @@ where
     C: Coordinates<M>,
 {
     let chosen = list.each_ref().map(|tracked| {
-        let next = tracked.status.get().next;
+        let next = tracked.status.next;
         !matches!(next, Next::Without)
     });
     let columns = Columns::of(setting, list, &chosen)?;
     let offset = setting.accelerations(list, &free.accelerations);
     let mut problem = BoxProblem::at_rest(columns.delassus, offset);
     let motions: [Motion<S>; K] =
-        setting.here(|scene| list.each_ref().map(|tracked| Motion::of(tracked, scene)));
+        setting.here(|scene| list.each_mut().map(|tracked| Motion::of(tracked, scene)));
     let loads = if list.iter().any(|tracked| tracked.bearing().is_some()) {
         let loads = BearingLoads::of(setting, reactions, list, &columns, free)?;
         Some(loads)
@@ -60,7 +60,7 @@ where
         None
     };
     let capacities = Capacities {
-        list,
+        list: &*list,
         rates: motions.each_ref().map(|motion| motion.rate),
         loads: loads.as_ref(),
     };
@@ -93,11 +93,11 @@ where
                 joint: list.get(index).map_or("", |first| first.interaction.name()),
             });
         }
-        for (tracked, load) in list.iter().zip(loads.sizes(&solution.efforts)) {
-            tracked.take_load(load);
+        for (tracked, load) in list.iter_mut().zip(loads.sizes(&solution.efforts)) {
+            tracked.status.exerted.capacity = tracked.capacity(Some(load));
         }
     }
-    for (index, tracked) in list.iter().enumerate() {
+    for (index, tracked) in list.iter_mut().enumerate() {
         let effort = solution.efforts[index];
         let diagonal = columns.delassus[index][index];
         let alone = if diagonal > S::zero() {
@@ -108,7 +108,7 @@ where
         // A limit that bears nothing is left.
         let bears = effort.abs() > part::<S>(AT_BOUND, ROUND_OFF) * alone;
         let is_inside = solution.places[index] == Place::Inside && bears;
-        let mode = match (tracked.status.get().next, sliding[index]) {
+        let mode = match (tracked.status.next, sliding[index]) {
             (Next::On(sign), _) if is_inside && sign > S::zero() => InteractionMode::AtLower,
             (Next::On(_), _) if is_inside => InteractionMode::AtUpper,
             (_, Some(sign)) if sign > S::zero() => InteractionMode::SlidingUp,
@@ -143,7 +143,7 @@ fn beginning<S: Real, M: Mechanism, const K: usize>(
     let mut beginning = [None; K];
     for (index, tracked) in list.iter().enumerate() {
         let is_friction = tracked.friction().is_some();
-        if !is_friction || (tracked.status.get().next, sliding[index]) != (Next::Still, None) {
+        if !is_friction || (tracked.status.next, sliding[index]) != (Next::Still, None) {
             continue;
         }
         let at = (index, can_be_held[index]);
@@ -197,12 +197,12 @@ fn begin<S: Real, M: Mechanism, const K: usize>(
 
 /// Marks friction at its capacity that cannot move, because what is held blocks it.
 fn mark_blocked<S: Real, M: Mechanism, const K: usize>(
-    list: &[Tracked<S, M>; K],
+    list: &mut [Tracked<S, M>; K],
     matrix: &[[S; K]; K],
 ) {
     let holds = list.each_ref().map(|tracked| tracked.mode().holds());
-    for (index, tracked) in list.iter().enumerate() {
-        let status = tracked.status.get();
+    for (index, tracked) in list.iter_mut().enumerate() {
+        let status = &mut tracked.status;
         let is_still = status.next == Next::Still && status.mode.sliding::<S>().is_some();
         let mut rests = false;
         if is_still && holds.contains(&true) {
@@ -213,7 +213,7 @@ fn mark_blocked<S: Real, M: Mechanism, const K: usize>(
             let rest = terms.fold(diagonal, |rest, (&w, &x)| (-w).fused(x, rest));
             rests = rest <= part::<S>(BLOCKED, OF_BLOCKED) * diagonal;
         }
-        tracked.update(|status| status.rests = rests);
+        status.rests = rests;
     }
 }
 
@@ -261,7 +261,7 @@ fn held_at_bounds<S: Real, M: Mechanism, const K: usize>(
     let mut held = [false; K];
     let mut places = solution.places;
     for (index, tracked) in list.iter().enumerate() {
-        let status = tracked.status.get();
+        let status = tracked.status;
         let slips = status.is_found && status.before == InteractionMode::Sticking;
         let is_still = status.next == Next::Still && sliding[index].is_none();
         let is_at_bound = places[index] != Place::Inside;
@@ -319,20 +319,19 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// Enters a mode with its effort, the one that would hold it alone, and the size of those that
     /// are at work.
     fn enter(
-        &self,
+        &mut self,
         mode: InteractionMode,
         scene: &Scene<'_, S, M>,
         [effort, alone, work]: [S; 3],
         motion: &Motion<S>,
     ) {
-        self.update(|status| {
-            if mode == InteractionMode::Sticking && status.before != InteractionMode::Sticking {
-                status.held = self.interaction.quantity.value(scene);
-            }
-            status.mode = mode;
-            status.since = scene.time;
-            (status.effort, status.share) = (effort, effort);
-        });
+        let status = &mut self.status;
+        if mode == InteractionMode::Sticking && status.before != InteractionMode::Sticking {
+            status.held = self.interaction.quantity.value(scene);
+        }
+        status.mode = mode;
+        status.since = scene.time;
+        (status.exerted.effort, status.share) = (effort, effort);
         let reading = self.reading(scene);
         let round_off = S::constant(ROUND_OFF) * S::EPSILON;
         let floor = match mode {
@@ -349,6 +348,6 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             }
             _ => round_off * motion.size,
         };
-        self.update(|status| status.stand(reading, floor));
+        self.status.stand(reading, floor);
     }
 }

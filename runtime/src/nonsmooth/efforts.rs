@@ -11,8 +11,11 @@ use crate::nonsmooth::interaction::Law;
 use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::slipping::{Refusal, Slipping, held};
-use crate::nonsmooth::status::{InteractionMode, Tracked};
+use crate::nonsmooth::status::{Exerted, InteractionMode, Tracked};
 use crate::state::vector::Array;
+
+/// What is done with what all interactions exert, in their order.
+pub(crate) type Show<'s, S> = dyn FnMut(&[Exerted<S>]) + 's;
 
 /// Rounds of correction. The second takes what round-off and an iterated formulation leave, so that
 /// what is held does not creep.
@@ -43,15 +46,12 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         Some(-sign * friction.sliding(rate))
     }
 
-    /// Its power (W) in a state, with the effort last asked for where it slides by its load. What
-    /// holds has none: its rate is zero.
-    pub(crate) fn power(&self, scene: &Scene<'_, S, M>) -> S {
-        let effort = match self.sliding_effort(scene) {
-            Some(effort) => effort,
-            None if self.slips_by_load() => self.status.get().effort,
-            None => return S::zero(),
-        };
-        effort * self.interaction.quantity.rate(scene)
+    /// Its power (W) in a state by its effort. What holds has none: its rate is zero.
+    pub(crate) fn power(&self, effort: S, scene: &Scene<'_, S, M>) -> S {
+        match self.mode().sliding::<S>() {
+            Some(_) => effort * self.interaction.quantity.rate(scene),
+            None => S::zero(),
+        }
     }
 
     /// Whether it slides by its load.
@@ -88,12 +88,12 @@ pub(super) fn refused<S: Real, M: Mechanism, const K: usize>(
 }
 
 /// Adds the efforts that hold, and those of what slides by its load, to a solution, which has those
-/// of other sliding friction. Leaves all of them in the statuses where they are wanted.
+/// of other sliding friction. Shows what all of them exert where that is wanted.
 pub(crate) fn complete<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
     reactions: Option<Reactions<'_, S, M, F>>,
     list: &[Tracked<S, M>; K],
-    (solution, is_wanted): (&mut Solution<S, M, C>, bool),
+    (solution, show): (&mut Solution<S, M, C>, Option<&mut Show<'_, S>>),
 ) -> Result<(), Fault>
 where
     S: Real,
@@ -116,7 +116,7 @@ where
     if list.iter().any(|tracked| tracked.bearing().is_some()) {
         for (share, tracked) in shares.iter_mut().zip(list) {
             if tracked.mode().holds() {
-                *share = tracked.status.get().share;
+                *share = tracked.status.share;
             }
         }
     }
@@ -124,6 +124,7 @@ where
     let mut loads = None;
     if chosen.contains(&true) {
         let columns = Columns::of(setting, list, &chosen)?;
+        let is_wanted = show.is_some();
         if list.iter().any(|tracked| tracked.asks_for_load(is_wanted)) {
             loads = Some(BearingLoads::of(
                 setting, reactions, list, &columns, solution,
@@ -156,18 +157,18 @@ where
             }
         }
     }
-    if is_wanted {
-        setting.here(|scene| {
-            for (tracked, &effort) in list.iter().zip(&efforts) {
-                let effort = tracked.sliding_effort(scene).unwrap_or(effort);
-                tracked.update(|status| status.effort = effort);
-            }
+    if let Some(show) = show {
+        let loads = loads.map(|loads| loads.sizes(&efforts));
+        let exerted: [Exerted<S>; K] = setting.here(|scene| {
+            core::array::from_fn(|index| {
+                let (tracked, effort) = (&list[index], efforts[index]);
+                Exerted {
+                    effort: tracked.sliding_effort(scene).unwrap_or(effort),
+                    capacity: tracked.capacity(loads.map(|loads| loads[index])),
+                }
+            })
         });
-        if let Some(loads) = loads {
-            for (tracked, load) in list.iter().zip(loads.sizes(&efforts)) {
-                tracked.take_load(load);
-            }
-        }
+        show(&exerted);
     }
     Ok(())
 }
@@ -179,14 +180,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         self.slips_by_load() || sticks && self.bearing().is_some()
     }
 
-    /// Leaves the capacity by a load.
-    pub(super) fn take_load(&self, load: S) {
-        if let Some(friction) = self
-            .friction()
-            .filter(|friction| friction.bearing.is_some())
-        {
-            let capacity = friction.at_rest() * load;
-            self.update(|status| status.capacity = capacity);
+    /// The largest effort at rest by a load; that which was known last where there is none.
+    pub(super) fn capacity(&self, load: Option<S>) -> S {
+        match (self.friction(), load) {
+            (Some(friction), Some(load)) if friction.bearing.is_some() => friction.at_rest() * load,
+            _ => self.status.exerted.capacity,
         }
     }
 }
@@ -195,7 +193,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 /// coordinates as velocities over a unit of time. The least ones in the metric of the mass.
 pub(crate) fn corrections<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
-    list: &[Tracked<S, M>; K],
+    list: &mut [Tracked<S, M>; K],
     [velocities, displacements]: [&mut C::Velocities<S>; 2],
 ) -> Result<(), Fault>
 where
@@ -209,9 +207,11 @@ where
         return Ok(());
     }
     let columns = Columns::of(setting, list, &holds)?;
-    for (index, tracked) in list.iter().enumerate() {
+    for (index, tracked) in list.iter_mut().enumerate() {
         let compliance = columns.delassus[index][index];
-        tracked.update(|status| status.is_brought_back(setting.saddle.time, compliance));
+        tracked
+            .status
+            .is_brought_back(setting.saddle.time, compliance);
     }
     let factors = Factors::of(&columns.delassus, &holds);
     let (rates, beyond) = setting.here(|scene| {
@@ -230,9 +230,8 @@ where
 impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// How far it is from where it is held; zero where nothing but the rate is.
     fn beyond(&self, scene: &Scene<'_, S, M>) -> S {
-        let status = self.status.get();
         let quantity = &self.interaction.quantity;
-        match (status.mode, &self.interaction.law) {
+        match (self.mode(), &self.interaction.law) {
             (InteractionMode::AtLower, Law::Limits(limits)) => {
                 quantity.beyond(scene, limits.bounds[0])
             }
@@ -240,7 +239,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
                 quantity.beyond(scene, limits.bounds[1])
             }
             (InteractionMode::Sticking, _) if quantity.has_value() => {
-                quantity.beyond(scene, status.held)
+                quantity.beyond(scene, self.status.held)
             }
             _ => S::zero(),
         }

@@ -144,29 +144,30 @@ impl<M> JointQuantity<M> {
     }
 }
 
-/// What a handle names among the interactions of a run.
+/// What a handle names among the interactions of a run, with its place there.
 pub(crate) fn named<S: Real, M: Mechanism>(
     list: &[Tracked<S, M>],
     handle: InteractionHandle<M>,
-) -> Result<&Tracked<S, M>, Fault> {
+) -> Result<(usize, &Tracked<S, M>), Fault> {
+    let mut all = list.iter().enumerate();
     match handle.which {
         Which::Listed(number, kind) => {
-            let mut given = list.iter().filter(|of| !of.interaction.is_described);
+            let mut given = all.filter(|(_, of)| !of.interaction.is_described);
             let interactions = given.clone().count();
             let named = given.nth(number);
-            let named = named.filter(|tracked| Kind::of(&tracked.interaction) == kind);
+            let named = named.filter(|(_, of)| Kind::of(&of.interaction) == kind);
             named.ok_or(Fault::NoSuchInteraction {
                 number,
                 interactions,
             })
         }
         Which::Limits(reading) => {
-            let limits_it = |tracked: &&Tracked<S, M>| {
+            let limits_it = |(_, tracked): &(usize, &Tracked<S, M>)| {
                 let Interaction { quantity, law, .. } = &tracked.interaction;
                 let is_of_it = matches!(quantity, Quantity::Joint(of) if *of == reading);
                 is_of_it && matches!(law, Law::Limits(_)) && !tracked.interaction.is_dropped
             };
-            list.iter().find(limits_it).ok_or(Fault::NoSuchLimits {
+            all.find(limits_it).ok_or(Fault::NoSuchLimits {
                 joint: Quantity::<S>::Joint(reading).name::<M>(),
             })
         }
@@ -175,17 +176,19 @@ pub(crate) fn named<S: Real, M: Mechanism>(
 
 /// Engages or releases what a handle names. A limit is neither.
 pub(crate) fn engage<S: Real, M: Mechanism>(
-    list: &[Tracked<S, M>],
+    list: &mut [Tracked<S, M>],
     handle: InteractionHandle<M>,
     is_engaged: bool,
 ) -> Result<(), Fault> {
-    let tracked = named(list, handle)?;
+    let (place, tracked) = named(list, handle)?;
     if let Law::Limits(_) = tracked.interaction.law {
         return Err(Fault::MisplacedSetting {
             joint: tracked.interaction.name(),
             setting: if is_engaged { "engage" } else { "release" },
         });
     }
-    tracked.update(|status| status.engage(is_engaged));
+    if let Some(tracked) = list.get_mut(place) {
+        tracked.status.engage(is_engaged);
+    }
     Ok(())
 }

@@ -58,7 +58,7 @@ impl<S: Real, const K: usize> BearingLoads<S, K> {
             let jacobian = M::jacobian(scene.constants, scene.time, scene.bodies);
             let placed: [Option<Placed<S>>; K] = list.each_ref().map(|tracked| {
                 let bearing = tracked.bearing()?;
-                if !tracked.status.get().is_engaged {
+                if !tracked.status.is_engaged {
                     return None;
                 }
                 bearing.placed(&tracked.interaction.quantity, scene)

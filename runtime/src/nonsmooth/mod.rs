@@ -28,7 +28,7 @@ mod capacities;
 mod choice;
 pub(crate) mod columns;
 pub(crate) mod described;
-mod efforts;
+pub(crate) mod efforts;
 pub(crate) mod handle;
 pub(crate) mod impulse;
 pub(crate) mod interaction;

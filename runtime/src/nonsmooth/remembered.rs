@@ -21,11 +21,11 @@ const MODES: [InteractionMode; 7] = [
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// Hands over the status, with all that was said of the interaction.
-    pub(crate) fn remember(&self, memory: &mut Memory<'_, S>) {
+    pub(crate) fn remember(&mut self, memory: &mut Memory<'_, S>) {
         // Without a heap there is no checkpoint, and no text in the program.
         #[cfg(feature = "std")]
         memory.label(&std::format!("{:?}", self.interaction));
-        self.update(|status| status.remember(memory));
+        self.status.remember(memory);
     }
 }
 
@@ -41,11 +41,11 @@ impl<S: Real> Status<S> {
         memory.flag(&mut self.rests);
         let numbers = [
             &mut self.held,
-            &mut self.effort,
+            &mut self.exerted.effort,
             &mut self.share,
             &mut self.since,
             &mut self.kept_from,
-            &mut self.capacity,
+            &mut self.exerted.capacity,
             &mut self.fastest,
             &mut self.largest,
             &mut self.farthest,

@@ -81,7 +81,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         // At an instant it is where it is by the digits of the time.
         let resolved = rate.fused(S::constant(OF_TIME) * scene.time.ulp(), digits);
         let way = terms.min(upper - lower);
-        let farthest = self.status.get().farthest.min(way);
+        let farthest = self.status.farthest.min(way);
         Near {
             held: part::<S>(BEYOND, PUT).fused(way, resolved),
             free: S::constant(ON_LIMIT).fused(farthest, digits),

@@ -1,7 +1,5 @@
 //! In which mode interactions are, and the conditions under which they leave it.
 
-use core::cell::Cell;
-
 use crate::integrate::Memory;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
@@ -74,6 +72,15 @@ pub(crate) enum Next<S> {
     Moving(S),
 }
 
+/// What an interaction exerts at an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Exerted<S> {
+    /// Its effort (N m, N) along its quantity, positive upwards.
+    pub(crate) effort: S,
+    /// The largest effort (N m, N) while it sticks, where that goes with its load.
+    pub(crate) capacity: S,
+}
+
 /// An interaction in a run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Status<S> {
@@ -83,16 +90,14 @@ pub(crate) struct Status<S> {
     pub(crate) is_asked: bool,
     /// The value that is held.
     pub(crate) held: S,
-    /// The effort when it was last asked for.
-    pub(crate) effort: S,
+    /// What it exerted at the last look into a step, or where its mode began.
+    pub(crate) exerted: Exerted<S>,
     /// The effort with which the mode began.
     pub(crate) share: S,
     /// When (s) it began, or what it holds was last brought back.
     pub(crate) since: S,
     /// The rate that it kept from arising until then: what is held is known to its round-off.
     pub(crate) kept_from: S,
-    /// The largest effort while it sticks, by the load when that was last asked for.
-    pub(crate) capacity: S,
     /// Friction at its capacity that does not move, for a limit bears the rest.
     pub(crate) rests: bool,
     /// The last reading of the condition.
@@ -119,43 +124,34 @@ pub(crate) struct Status<S> {
 #[derive(Debug)]
 pub struct Tracked<S: Scalar, M: Mechanism> {
     pub(crate) interaction: Interaction<S, M>,
-    pub(crate) status: Cell<Status<S>>,
+    pub(crate) status: Status<S>,
 }
 
 impl<S: Scalar, M: Mechanism> Clone for Tracked<S, M> {
     fn clone(&self) -> Self {
-        Self {
-            interaction: self.interaction,
-            status: self.status.clone(),
-        }
+        *self
     }
 }
 
+impl<S: Scalar, M: Mechanism> Copy for Tracked<S, M> {}
+
 impl<S: Real, M: Mechanism> Tracked<S, M> {
     pub(crate) fn new(interaction: Interaction<S, M>) -> Self {
-        let tracked = Self {
+        let mut tracked = Self {
             interaction,
-            status: Cell::new(Status::new()),
+            status: Status::new(),
         };
         tracked.begin();
         tracked
     }
 
     /// As at the start of a run.
-    pub(crate) fn begin(&self) {
-        let mut status = Status::new();
+    pub(crate) fn begin(&mut self) {
+        self.status = Status::new();
         if let Law::Friction(friction) = self.interaction.law {
-            status.is_engaged = friction.is_engaged;
-            status.mode = InteractionMode::Released;
+            self.status.is_engaged = friction.is_engaged;
+            self.status.mode = InteractionMode::Released;
         }
-        self.status.set(status);
-    }
-
-    /// Changes the status.
-    pub(crate) fn update(&self, change: impl FnOnce(&mut Status<S>)) {
-        let mut status = self.status.get();
-        change(&mut status);
-        self.status.set(status);
     }
 
     /// What bears the load that its friction goes with.
@@ -168,43 +164,42 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 
     /// The mode.
     pub(crate) fn mode(&self) -> InteractionMode {
-        self.status.get().mode
+        self.status.mode
     }
 
     /// The mode as it is told: what does not move sticks, at its capacity as well.
     pub(crate) fn told_mode(&self) -> InteractionMode {
-        let status = self.status.get();
-        if status.rests && status.mode.sliding::<S>().is_some() {
+        if self.status.rests && self.mode().sliding::<S>().is_some() {
             InteractionMode::Sticking
         } else {
-            status.mode
+            self.mode()
         }
     }
 
     /// The reading of the condition under which the present mode ends: positive as long as it is
-    /// right. Infinite of a mode that does not end by itself.
+    /// right. Infinite of a mode that does not end by itself. By what the status has of its effort.
     pub(crate) fn reading(&self, scene: &Scene<'_, S, M>) -> S {
         let never = S::constant(f64::INFINITY);
         if self.interaction.is_dropped {
             return never;
         }
-        let status = self.status.get();
         let Interaction { quantity, law, .. } = &self.interaction;
-        match (status.mode, law) {
+        let Exerted { effort, capacity } = self.status.exerted;
+        match (self.mode(), law) {
             (InteractionMode::Free, Law::Limits(limits)) => {
                 let [lower, upper] = limits.bounds;
                 let value = quantity.value(scene);
                 (value - lower).min(upper - value)
             }
-            (InteractionMode::AtLower, _) => status.effort,
-            (InteractionMode::AtUpper, _) => -status.effort,
+            (InteractionMode::AtLower, _) => effort,
+            (InteractionMode::AtUpper, _) => -effort,
             (InteractionMode::Sticking, Law::Friction(friction)) => {
                 let capacity = match friction.bearing {
-                    Some(_) => status.capacity,
+                    Some(_) => capacity,
                     None => friction.at_rest(),
                 };
                 if capacity.is_finite() {
-                    capacity - status.effort.abs()
+                    capacity - effort.abs()
                 } else {
                     never
                 }
@@ -217,6 +212,15 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     }
 }
 
+impl<S: Real> Exerted<S> {
+    pub(crate) fn nothing() -> Self {
+        Self {
+            effort: S::zero(),
+            capacity: S::zero(),
+        }
+    }
+}
+
 impl<S: Real> Status<S> {
     fn new() -> Self {
         Self {
@@ -224,11 +228,10 @@ impl<S: Real> Status<S> {
             is_engaged: true,
             is_asked: false,
             held: S::zero(),
-            effort: S::zero(),
+            exerted: Exerted::nothing(),
             share: S::zero(),
             since: S::zero(),
             kept_from: S::zero(),
-            capacity: S::zero(),
             rests: false,
             reading: S::zero(),
             has_left: true,
@@ -262,7 +265,7 @@ impl<S: Real> Status<S> {
     pub(super) fn is_brought_back(&mut self, time: S, compliance: S) {
         let span = time - self.since;
         if self.mode.holds() && span > S::zero() {
-            self.kept_from = (compliance * self.effort * span).abs();
+            self.kept_from = (compliance * self.exerted.effort * span).abs();
             self.since = time;
         }
     }

@@ -10,7 +10,7 @@ use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::interaction::{Friction, Law, Limits, Rest};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{AT_REST, OF_TIME, ROUND_OFF, part};
-use crate::nonsmooth::status::{Impact, InteractionMode, Next, Tracked};
+use crate::nonsmooth::status::{Impact, InteractionMode, Next, Status, Tracked};
 use crate::state::vector::{Array, StateParts as _};
 
 /// How a quantity moves at an instant.
@@ -22,7 +22,7 @@ pub(super) struct Motion<S> {
 }
 
 impl<S: Real> Motion<S> {
-    pub(super) fn of<M: Mechanism>(tracked: &Tracked<S, M>, scene: &Scene<'_, S, M>) -> Self {
+    pub(super) fn of<M: Mechanism>(tracked: &mut Tracked<S, M>, scene: &Scene<'_, S, M>) -> Self {
         let quantity = &tracked.interaction.quantity;
         let velocities = scene.bodies.velocities().as_slice();
         let mut size = S::zero();
@@ -30,8 +30,8 @@ impl<S: Real> Motion<S> {
             let velocity = velocities.get(place).copied().unwrap_or(S::zero());
             size = size + (part * velocity).abs();
         });
-        tracked.update(|status| status.largest = status.largest.max(size));
-        let status = tracked.status.get();
+        let status = &mut tracked.status;
+        status.largest = status.largest.max(size);
         let kept_from = if status.mode.holds() {
             status.kept_from
         } else {
@@ -69,12 +69,10 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     }
 
     /// Begins what comes next, without an effort until that is known.
-    fn enter_next(&self, next: Next<S>) {
-        self.update(|status| {
-            status.before = status.mode;
-            status.next = next;
-            status.mode = InteractionMode::Free;
-        });
+    fn enter_next(&mut self, next: Next<S>) {
+        self.status.before = self.status.mode;
+        self.status.next = next;
+        self.status.mode = InteractionMode::Free;
     }
 
     pub(super) fn friction(&self) -> Option<&Friction<S>> {
@@ -89,7 +87,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         if self.interaction.is_dropped {
             return Ok(None);
         }
-        let status = self.status.get();
+        let status = self.status;
         let [lower, upper] = limits.bounds;
         let near = self.near(limits, scene);
         let value = self.interaction.quantity.value(scene);
@@ -130,13 +128,13 @@ struct Struck<S> {
 }
 
 impl<S: Real> Struck<S> {
-    fn of<M: Mechanism>(tracked: &Tracked<S, M>, scene: &Scene<'_, S, M>) -> Self {
+    fn of<M: Mechanism>(tracked: &mut Tracked<S, M>, scene: &Scene<'_, S, M>) -> Self {
         let motion = Motion::of(tracked, scene);
         Self {
             before: motion.rate,
             motion,
             at_limit: None,
-            is_engaged: tracked.friction().is_some() && tracked.status.get().is_engaged,
+            is_engaged: tracked.friction().is_some() && tracked.status.is_engaged,
             impulse: S::zero(),
             rests: false,
         }
@@ -153,7 +151,7 @@ impl<S: Real> Struck<S> {
 /// handler has moved it.
 pub(crate) fn impulses<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
-    list: &[Tracked<S, M>; K],
+    list: &mut [Tracked<S, M>; K],
     is_moved: bool,
     change: &mut C::Velocities<S>,
 ) -> Result<(), Fault>
@@ -164,7 +162,7 @@ where
     C: Coordinates<M>,
 {
     let mut all: [Struck<S>; K] =
-        setting.here(|scene| list.each_ref().map(|tracked| Struck::of(tracked, scene)));
+        setting.here(|scene| list.each_mut().map(|tracked| Struck::of(tracked, scene)));
     for (index, tracked) in list.iter().enumerate() {
         if let Law::Limits(limits) = &tracked.interaction.law {
             let limit = setting.here(|scene| tracked.limit(limits, scene));
@@ -176,7 +174,7 @@ where
     let before = all.each_ref().map(|one| one.before);
     let mut problem = BoxProblem::at_rest(columns.delassus, before);
     let mut is_struck = false;
-    for (index, tracked) in list.iter().enumerate() {
+    for (index, tracked) in list.iter_mut().enumerate() {
         is_struck |= tracked.collides(&all[index], &mut problem, index);
     }
     if is_struck {
@@ -192,7 +190,7 @@ where
         report(setting, list, &all);
     }
     for (index, tracked) in list.iter().enumerate() {
-        let status = tracked.status.get();
+        let status = tracked.status;
         let was_at_rest = !is_struck && !is_moved && (status.mode.holds() || status.is_found);
         let unresolved = tracked.unresolved(setting.saddle.time, columns.delassus[index][index]);
         let one = &mut all[index];
@@ -206,7 +204,7 @@ where
     let impulses = core::array::from_fn(|index| all[index].impulse - last[index]);
     *change = Array::zeros();
     columns.add_velocities(&impulses, change);
-    for (tracked, one) in list.iter().zip(&all) {
+    for (tracked, one) in list.iter_mut().zip(&all) {
         let next = tracked.next(one);
         tracked.enter_next(next.ok_or_else(|| no_mode(setting, tracked))?);
     }
@@ -281,7 +279,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// The rate that engaged friction ends within the digits of an instant.
     fn unresolved(&self, time: S, compliance: S) -> S {
         let capacity = match self.friction() {
-            Some(friction) if friction.bearing.is_some() => self.status.get().capacity,
+            Some(friction) if friction.bearing.is_some() => self.status.exerted.capacity,
             Some(friction) if friction.capacity.is_finite() => friction.capacity,
             _ => return S::zero(),
         };
@@ -291,7 +289,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// Says in the problem of impulses which ones it has, and which rate is wanted; whether there
     /// is one that is not zero.
     fn collides<const K: usize>(
-        &self,
+        &mut self,
         one: &Struck<S>,
         problem: &mut BoxProblem<S, K>,
         index: usize,
@@ -307,7 +305,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
                 let approach = -(sign * motion.rate);
                 let is_struck = approach > motion.none();
                 if is_struck {
-                    let restitution = self.restitution(limits, approach);
+                    let restitution = self.status.restitution(limits, approach);
                     problem.offset[index] = (S::one() + restitution) * motion.rate;
                 }
                 is_struck
@@ -340,17 +338,18 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let driven = against(setting, self.interaction.name(), limit.to_f64());
         Err(driven.unwrap_or_else(|| no_mode(setting, self)))
     }
+}
 
+impl<S: Real> Status<S> {
     /// The restitution of an approach.
-    fn restitution(&self, limits: &Limits<S>, approach: S) -> S {
-        let fastest = self.status.get().fastest.max(approach);
-        self.update(|status| status.fastest = fastest);
+    fn restitution(&mut self, limits: &Limits<S>, approach: S) -> S {
+        self.fastest = self.fastest.max(approach);
         let least = match limits.rest {
             Rest::Below(rate) => rate,
-            Rest::Part(part) => part * fastest,
+            Rest::Part(part) => part * self.fastest,
         };
         // What does not rise above round-off does not bounce.
-        if approach < least || self.status.get().has_not_flown() {
+        if approach < least || self.has_not_flown() {
             S::zero()
         } else {
             limits.restitution
@@ -361,7 +360,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 /// Leaves the impulses in the statuses.
 fn report<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
-    list: &[Tracked<S, M>; K],
+    list: &mut [Tracked<S, M>; K],
     all: &[Struck<S>; K],
 ) where
     S: Real,
@@ -374,7 +373,7 @@ fn report<S, M, F, C, const K: usize>(
     for one in all {
         lost = lost - half * one.impulse * (one.before + one.motion.rate);
     }
-    for (tracked, one) in list.iter().zip(all) {
+    for (tracked, one) in list.iter_mut().zip(all) {
         if one.impulse != S::zero() {
             let impact = Impact {
                 time: setting.saddle.time,
@@ -382,7 +381,7 @@ fn report<S, M, F, C, const K: usize>(
                 rates: [one.before, one.motion.rate],
                 lost_energy: lost,
             };
-            tracked.update(|status| status.impact = Some(impact));
+            tracked.status.impact = Some(impact);
         }
     }
 }

@@ -1,20 +1,18 @@
-//! What is asked of the interactions where the equations of motion are factorised.
+//! What interactions change between steps, where the equations of motion are factorised.
 
 use crate::error::Fault;
 use crate::formulation::{Formulation, Solution};
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::limits::{Several, VisitMut};
 use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::{choice, efforts, switch};
 
 /// What is asked for.
-pub enum Task<'t, S: Real, M: Mechanism, C: Coordinates<M>> {
-    /// To complete a solution by the efforts that hold, and to leave all efforts in the statuses
-    /// where they are wanted.
-    Complete(&'t mut Solution<S, M, C>, bool),
+pub(crate) enum Task<'t, S: Real, M: Mechanism, C: Coordinates<M>> {
     /// What brings back what is held: changes of velocities, and of coordinates as velocities over
     /// a unit of time.
     Correct([&'t mut C::Velocities<S>; 2]),
@@ -27,20 +25,16 @@ pub enum Task<'t, S: Real, M: Mechanism, C: Coordinates<M>> {
 impl<S: Real, M: Mechanism, C: Coordinates<M>> Task<'_, S, M, C> {
     /// Whether the reactions of joints are asked for.
     pub(crate) fn asks_for_loads(&self, list: &[Tracked<S, M>]) -> bool {
-        let mut list = list.iter();
-        match self {
-            Self::Complete(_, is_wanted) => list.any(|tracked| tracked.asks_for_load(*is_wanted)),
-            Self::Choose(_) => list.any(|tracked| tracked.bearing().is_some()),
-            Self::Correct(_) | Self::Strike(..) => false,
-        }
+        let is_by_load = |tracked: &Tracked<S, M>| tracked.bearing().is_some();
+        matches!(self, Self::Choose(_)) && list.iter().any(is_by_load)
     }
 }
 
 /// Does it.
-pub(crate) fn perform<S, M, F, C, const K: usize>(
+pub(crate) fn perform<S, M, F, C, L>(
     setting: &Setting<'_, S, M, F, C>,
     reactions: Option<Reactions<'_, S, M, F>>,
-    list: &[Tracked<S, M>; K],
+    list: &mut L,
     task: Task<'_, S, M, C>,
 ) -> Result<(), Fault>
 where
@@ -48,13 +42,40 @@ where
     M: Mechanism,
     F: Formulation<S>,
     C: Coordinates<M>,
+    L: Several<Tracked<S, M>>,
 {
-    match task {
-        Task::Complete(solution, is_wanted) => {
-            efforts::complete(setting, reactions, list, (solution, is_wanted))
+    let perform = Perform {
+        setting,
+        reactions,
+        task,
+    };
+    list.visit_mut(perform).unwrap_or(Ok(()))
+}
+
+/// It, with what it needs of the equations of motion.
+struct Perform<'a, 'r, 't, S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>> {
+    setting: &'a Setting<'a, S, M, F, C>,
+    reactions: Option<Reactions<'r, S, M, F>>,
+    task: Task<'t, S, M, C>,
+}
+
+impl<S, M, F, C> VisitMut<Tracked<S, M>> for Perform<'_, '_, '_, S, M, F, C>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    type Output = Result<(), Fault>;
+
+    fn visit<const K: usize>(self, list: &mut [Tracked<S, M>; K]) -> Result<(), Fault> {
+        let Self {
+            setting, reactions, ..
+        } = self;
+        match self.task {
+            Task::Correct(changes) => efforts::corrections(setting, list, changes),
+            Task::Strike(change, is_moved) => switch::impulses(setting, list, is_moved, change),
+            Task::Choose(solution) => choice::modes(setting, reactions, list, solution),
         }
-        Task::Correct(changes) => efforts::corrections(setting, list, changes),
-        Task::Strike(change, is_moved) => switch::impulses(setting, list, is_moved, change),
-        Task::Choose(solution) => choice::modes(setting, reactions, list, solution),
     }
 }

@@ -96,7 +96,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
 
     /// Hands over what events, controllers, interactions and laws that switch remember.
     fn remember_happenings(&mut self, memory: &mut Memory<'_, S>) {
-        let interactions = self.march.equations().interactions();
+        let interactions = self.march.equations_mut().interactions_mut();
         let hybrid = &mut self.course.hybrid;
         if hybrid.watches || self.switching.is_some() || !interactions.is_empty() {
             memory.number(&mut hybrid.longest);

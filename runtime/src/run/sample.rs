@@ -15,6 +15,7 @@ use crate::mechanism::coordinates::Evaluation;
 use crate::mechanism::handle::{BodyHandle, Driven, HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
+use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::handle::{InteractionHandle, named};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{Impact, InteractionMode, Tracked};
@@ -220,20 +221,27 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// evaluation where friction slides by its load; NaN where that cannot be done.
     #[must_use]
     pub fn power(&self) -> S {
-        let list = self.interactions();
-        if list.iter().any(Tracked::slips_by_load) {
-            let found = self.dynamics.find_efforts(self.time(), self.state());
-            if found.is_err() {
-                return S::constant(f64::NAN);
-            }
-        }
+        let list = self.dynamics.interactions();
         let scene = Scene {
             constants: self.view.constants(),
             time: self.time(),
             bodies: self.state(),
         };
-        let power = |power: S, tracked: &Tracked<S, M>| tracked.power(&scene) + power;
-        list.iter().fold(self.view.power(), power)
+        let mut power = self.view.power();
+        if list.iter().any(Tracked::slips_by_load) {
+            let found = self.find_efforts(&mut |all| {
+                for (tracked, exerted) in list.iter().zip(all) {
+                    power = tracked.power(exerted.effort, &scene) + power;
+                }
+            });
+            return found.map_or(S::constant(f64::NAN), |()| power);
+        }
+        for tracked in list {
+            if let Some(effort) = tracked.sliding_effort(&scene) {
+                power = tracked.power(effort, &scene) + power;
+            }
+        }
+        power
     }
 
     /// The effort of an interaction (N m, N) along its quantity, positive upwards. One evaluation.
@@ -241,9 +249,12 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// # Errors
     /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`], the fault of the evaluation.
     pub fn effort(&self, interaction: InteractionHandle<M>) -> Result<S, Fault> {
-        let tracked = self.tracked(interaction)?;
-        self.dynamics.find_efforts(self.time(), self.state())?;
-        Ok(tracked.status.get().effort)
+        let (place, _) = named(self.dynamics.interactions(), interaction)?;
+        let mut effort = S::zero();
+        self.find_efforts(&mut |all| {
+            effort = all.get(place).map_or(effort, |exerted| exerted.effort);
+        })?;
+        Ok(effort)
     }
 
     /// The last impulse of an interaction in the run so far, if there was one.
@@ -251,16 +262,16 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// # Errors
     /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
     pub fn impact(&self, interaction: InteractionHandle<M>) -> Result<Option<Impact<S>>, Fault> {
-        Ok(self.tracked(interaction)?.status.get().impact)
+        Ok(self.tracked(interaction)?.status.impact)
     }
 
     fn tracked(&self, interaction: InteractionHandle<M>) -> Result<&'a Tracked<S, M>, Fault> {
-        named(self.interactions(), interaction)
+        let (_, tracked) = named(self.dynamics.interactions(), interaction)?;
+        Ok(tracked)
     }
 
-    /// All interactions of the run, with their statuses.
-    pub(super) fn interactions(&self) -> &'a [Tracked<S, M>] {
-        self.dynamics.interactions()
+    fn find_efforts(&self, show: &mut Show<'_, S>) -> Result<(), Fault> {
+        self.dynamics.find_efforts(self.time(), self.state(), show)
     }
 
     /// The violation of the constraints by the accelerations: the square of `D u' - gamma`.

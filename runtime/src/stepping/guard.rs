@@ -16,7 +16,7 @@ pub(crate) trait Guard<S: Real, M: Mechanism> {
     /// One that is not a number; the fault of an evaluation.
     fn value(
         &mut self,
-        equations: &dyn Evaluate<S, M>,
+        equations: &mut dyn Evaluate<S, M>,
         time: S,
         bodies: &M::State<S>,
     ) -> Result<S, Fault>;
@@ -28,16 +28,16 @@ pub(crate) trait Guard<S: Real, M: Mechanism> {
     fn beyond(&self, value: S) -> S;
 
     /// Keeps a number, and where it has passed up to there, until the step is ended or goes on.
-    fn keep(&mut self, equations: &dyn Evaluate<S, M>, value: S, root: Option<S>);
+    fn keep(&mut self, equations: &mut dyn Evaluate<S, M>, value: S, root: Option<S>);
 
     /// Goes on with the number that was kept.
-    fn go_on(&mut self, equations: &dyn Evaluate<S, M>);
+    fn go_on(&mut self, equations: &mut dyn Evaluate<S, M>);
 
     /// Takes the number where a step ends early (s), be it by this one or by another.
     ///
     /// # Errors
     /// One that ends steps without end.
-    fn take(&mut self, equations: &dyn Evaluate<S, M>, time: S, value: S) -> Result<(), Fault>;
+    fn take(&mut self, equations: &mut dyn Evaluate<S, M>, time: S, value: S) -> Result<(), Fault>;
 }
 
 /// What is done with each guard.

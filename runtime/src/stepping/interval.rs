@@ -10,7 +10,7 @@ use crate::stepping::marching::Marching;
 /// A step that is looked into, from its start on: each look is near to the one before.
 pub(crate) trait Interval<S: Real, M: Mechanism> {
     /// The equations that were integrated.
-    fn equations(&self) -> &dyn Evaluate<S, M>;
+    fn equations(&mut self) -> &mut dyn Evaluate<S, M>;
 
     /// The bodies at a time (s), with Euler parameters of length 1 and turns counted from the last
     /// look on.
@@ -32,8 +32,8 @@ pub(crate) struct LastStep<'s, S: Real, M: Mechanism> {
 }
 
 impl<S: Real, M: Mechanism> Interval<S, M> for LastStep<'_, S, M> {
-    fn equations(&self) -> &dyn Evaluate<S, M> {
-        self.march.equations()
+    fn equations(&mut self) -> &mut dyn Evaluate<S, M> {
+        self.march.equations_mut()
     }
 
     fn bodies_at(&mut self, time: S) -> Result<M::State<S>, Fault> {

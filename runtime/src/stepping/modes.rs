@@ -50,21 +50,21 @@ impl<S: Real, M: Mechanism> Guards<S, M> for Modes<S> {
 impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
     fn value(
         &mut self,
-        equations: &dyn Evaluate<S, M>,
+        equations: &mut dyn Evaluate<S, M>,
         time: S,
         bodies: &M::State<S>,
     ) -> Result<S, Fault> {
-        let list = equations.interactions();
+        let mut list = equations.interactions().iter();
         // Of a time at which the bodies were others they are old: it is then asked anew.
         let is_known = *self.efforts_at == Some(time);
-        if !is_known && list.iter().any(|tracked| tracked.mode().holds()) {
-            equations.find_efforts(time, bodies)?;
+        if !is_known && list.any(|tracked| tracked.mode().holds()) {
+            equations.keep_efforts(time, bodies)?;
         }
         *self.efforts_at = Some(time);
-        let Some(tracked) = list.get(self.number) else {
+        let Some(tracked) = equations.interactions().get(self.number) else {
             return Ok(S::one());
         };
-        self.status = Some(tracked.status.get());
+        self.status = Some(tracked.status);
         let scene = Scene::<S, M> {
             constants: equations.constants(),
             time,
@@ -88,22 +88,27 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
         self.status.map_or(value, |status| status.upwards(value))
     }
 
-    fn keep(&mut self, equations: &dyn Evaluate<S, M>, value: S, _root: Option<S>) {
-        if let Some(tracked) = equations.interactions().get(self.number) {
-            tracked.update(|status| status.reading = value);
+    fn keep(&mut self, equations: &mut dyn Evaluate<S, M>, value: S, _root: Option<S>) {
+        if let Some(tracked) = equations.interactions_mut().get_mut(self.number) {
+            tracked.status.reading = value;
         }
     }
 
-    fn go_on(&mut self, equations: &dyn Evaluate<S, M>) {
-        if let Some(tracked) = equations.interactions().get(self.number) {
-            tracked.update(Status::go_on);
+    fn go_on(&mut self, equations: &mut dyn Evaluate<S, M>) {
+        if let Some(tracked) = equations.interactions_mut().get_mut(self.number) {
+            tracked.status.go_on();
         }
     }
 
-    fn take(&mut self, equations: &dyn Evaluate<S, M>, _time: S, value: S) -> Result<(), Fault> {
+    fn take(
+        &mut self,
+        equations: &mut dyn Evaluate<S, M>,
+        _time: S,
+        value: S,
+    ) -> Result<(), Fault> {
         let is_found = self.status.is_some_and(|status| status.is_met(value));
-        if let Some(tracked) = equations.interactions().get(self.number) {
-            tracked.update(|status| status.is_found = is_found);
+        if let Some(tracked) = equations.interactions_mut().get_mut(self.number) {
+            tracked.status.is_found = is_found;
         }
         Ok(())
     }

@@ -233,12 +233,13 @@ fn methods_with_a_memory_go_on() {
     goes_on_until::<_, Absolute>("Radau", RadauIIA::default(), 0.31);
 }
 
-/// Nothing is changed by checkpoints.
+/// Nothing is changed by checkpoints, nor by what is read of a run: its checkpoints are the same.
 #[test]
-fn checkpoints_change_nothing() {
+fn checkpoints_and_readings_change_nothing() {
     let mill = Mill::default();
     let interactions = interactions(&mill, false);
-    let [_, clutch, ..] = Interaction::handles(&interactions);
+    let handles = Interaction::handles(&interactions);
+    let [_, clutch, ..] = handles;
     let simulation = || {
         mill.simulation(StandardLagrange, DormandPrince::default())
             .interactions(interactions)
@@ -249,15 +250,24 @@ fn checkpoints_change_nothing() {
                 move |event| event.engage(clutch),
             )
     };
+    let kept = |is_read: bool| {
+        let mut kept = Vec::new();
+        let report = simulation()
+            .checkpoints(1, |checkpoint| kept.push(checkpoint.clone()))
+            .run(0.0..=1.0, every(0.1), |sample| {
+                let read = handles.into_iter().filter(|_| is_read);
+                assert!(
+                    read.map(|of| sample.effort(of))
+                        .all(|effort| effort.is_ok())
+                );
+            });
+        (report.expect("it runs").state, kept)
+    };
     let run = simulation().run(0.0..=1.0, every(0.1), |_| ());
-    let plain = run.map(|report| report.state);
-    let mut checkpoints = 0;
-    let kept = simulation()
-        .checkpoints(1, |_| checkpoints += 1)
-        .run(0.0..=1.0, every(0.1), |_| ())
-        .map(|report| report.state);
-    assert_eq!(plain.expect("it runs"), kept.expect("it runs"));
-    assert!(checkpoints > 10);
+    let (plain, quiet) = (run.expect("it runs").state, kept(false));
+    assert_eq!(plain, quiet.0);
+    assert!(quiet.1.len() > 10);
+    assert!(quiet == kept(true));
 }
 
 /// The last checkpoint of a run with another end is that from which a longer run goes on.

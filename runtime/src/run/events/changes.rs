@@ -42,7 +42,7 @@ impl<S: Real> Changes<S> {
         longest: S,
         list: &[Tracked<S, M>],
     ) -> Result<(), Fault> {
-        let Some(found) = list.iter().find(|tracked| tracked.status.get().is_found) else {
+        let Some(found) = list.iter().find(|tracked| tracked.status.is_found) else {
             return Ok(());
         };
         let moment = (S::constant(MOMENT) * longest).max(S::constant(SAME) * time.ulp());

@@ -13,7 +13,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::handle::{InteractionHandle, engage};
 use crate::nonsmooth::impulse::impact;
 use crate::nonsmooth::quantity::JointQuantity;
-use crate::nonsmooth::status::Impact;
+use crate::nonsmooth::status::{Impact, Tracked};
 use crate::run::sample::Sample;
 
 /// An event of a run, for the handler of [`Simulation::on`](crate::Simulation::on): the
@@ -28,6 +28,8 @@ pub struct Event<'e, S: Real, M: Mechanism> {
     pub(super) state: M::State<S>,
     pub(super) inputs: M::Inputs<S>,
     pub(super) parameters: Option<M::Parameters<S>>,
+    /// What it engages and releases.
+    interactions: &'e mut [Tracked<S, M>],
 }
 
 /// The name of the event and the sample.
@@ -42,10 +44,9 @@ impl<S: Real, M: Mechanism> Debug for Event<'_, S, M> {
 
 impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
     pub(super) fn new(
-        sample: Sample<'e, S, M>,
-        name: &'static str,
-        former: &'e M::Parameters<S>,
-        inputs: M::Inputs<S>,
+        (sample, name): (Sample<'e, S, M>, &'static str),
+        (former, inputs): (&'e M::Parameters<S>, M::Inputs<S>),
+        interactions: &'e mut [Tracked<S, M>],
     ) -> Self {
         Self {
             state: *sample.state(),
@@ -54,6 +55,7 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
             former,
             inputs,
             parameters: None,
+            interactions,
         }
     }
 
@@ -94,7 +96,7 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
     /// # Errors
     /// [`Fault::NoSuchInteraction`]; [`Fault::MisplacedSetting`] of limits.
     pub fn engage(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
-        engage(self.sample.interactions(), interaction, true)
+        engage(self.interactions, interaction, true)
     }
 
     /// Releases it.
@@ -102,7 +104,7 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
     /// # Errors
     /// As [`Event::engage`].
     pub fn release(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
-        engage(self.sample.interactions(), interaction, false)
+        engage(self.interactions, interaction, false)
     }
 
     /// Gives an impulse along the angle or the displacement of a joint, after which its rate is

@@ -66,7 +66,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             hybrid.is_fresh = false;
         } else {
             let modes = self.march.equations().interactions().iter();
-            let mut modes = modes.map(|tracked| tracked.status.get().is_found);
+            let mut modes = modes.map(|tracked| tracked.status.is_found);
             hybrid.is_found = modes.any(|is_found| is_found);
             hybrid.event = None;
             self.list.each(&mut |happening| {
@@ -139,10 +139,11 @@ struct Condition<'c, S: Real, M: Mechanism> {
 impl<S: Real, M: Mechanism> Guard<S, M> for Condition<'_, S, M> {
     fn value(
         &mut self,
-        equations: &dyn Evaluate<S, M>,
+        equations: &mut dyn Evaluate<S, M>,
         time: S,
         bodies: &M::State<S>,
     ) -> Result<S, Fault> {
+        let equations = &*equations;
         let view = View::new(equations.constants(), time, bodies);
         let reading = self.happening.read(&Sample::new(view, equations));
         self.watch.checked(time, reading)
@@ -156,19 +157,24 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Condition<'_, S, M> {
         self.watch.upwards(value)
     }
 
-    fn keep(&mut self, _equations: &dyn Evaluate<S, M>, value: S, root: Option<S>) {
+    fn keep(&mut self, _equations: &mut dyn Evaluate<S, M>, value: S, root: Option<S>) {
         if let Some(watch) = self.happening.watch() {
             watch.keep(value, root);
         }
     }
 
-    fn go_on(&mut self, _equations: &dyn Evaluate<S, M>) {
+    fn go_on(&mut self, _equations: &mut dyn Evaluate<S, M>) {
         if let Some(watch) = self.happening.watch() {
             watch.go_on();
         }
     }
 
-    fn take(&mut self, _equations: &dyn Evaluate<S, M>, time: S, value: S) -> Result<(), Fault> {
+    fn take(
+        &mut self,
+        _equations: &mut dyn Evaluate<S, M>,
+        time: S,
+        value: S,
+    ) -> Result<(), Fault> {
         match self.happening.watch() {
             Some(watch) => watch.take(time, value, self.longest),
             None => Ok(()),
@@ -190,7 +196,7 @@ struct Side<'s, S: Real, M: Mechanism> {
 impl<S: Real, M: Mechanism> Guard<S, M> for Side<'_, S, M> {
     fn value(
         &mut self,
-        equations: &dyn Evaluate<S, M>,
+        equations: &mut dyn Evaluate<S, M>,
         time: S,
         bodies: &M::State<S>,
     ) -> Result<S, Fault> {
@@ -217,15 +223,20 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Side<'_, S, M> {
         self.watch.beyond(value)
     }
 
-    fn keep(&mut self, _equations: &dyn Evaluate<S, M>, value: S, root: Option<S>) {
+    fn keep(&mut self, _equations: &mut dyn Evaluate<S, M>, value: S, root: Option<S>) {
         self.watch.keep(value, root);
     }
 
-    fn go_on(&mut self, _equations: &dyn Evaluate<S, M>) {
+    fn go_on(&mut self, _equations: &mut dyn Evaluate<S, M>) {
         self.watch.go_on();
     }
 
-    fn take(&mut self, _equations: &dyn Evaluate<S, M>, time: S, value: S) -> Result<(), Fault> {
+    fn take(
+        &mut self,
+        _equations: &mut dyn Evaluate<S, M>,
+        time: S,
+        value: S,
+    ) -> Result<(), Fault> {
         let taken = self.watch.take(time, value, self.moment);
         taken.map_err(|_| match self.switch.is_continuous {
             true => undecided(self.switch, time.to_f64()),

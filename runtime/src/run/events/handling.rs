@@ -234,7 +234,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
 
     /// What was done, if interactions were asked for something, too.
     fn with_asked(&self, mut done: Done) -> Done {
-        let asks = |tracked: &Tracked<S, M>| tracked.status.get().is_asked;
+        let asks = |tracked: &Tracked<S, M>| tracked.status.is_asked;
         done.changed |= done.moved || self.march.equations().interactions().iter().any(asks);
         done
     }
@@ -275,8 +275,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         }: &StateAt<S, M>,
     ) -> Result<(), Fault> {
         self.course.hybrid.is_found = false;
-        for tracked in self.march.equations().interactions() {
-            tracked.update(|status| status.is_found = false);
+        for tracked in self.march.equations_mut().interactions_mut() {
+            tracked.status.is_found = false;
         }
         if let Some(switching) = &mut self.switching {
             switching.is_found = false;
@@ -349,12 +349,19 @@ fn invoke<S: Real, M: Mechanism>(
     state: &mut M::State<S>,
 ) -> Result<Done, Fault> {
     let mut done = Done::nothing();
-    let equations = march.equations();
-    let view = View::new(equations.constants(), time, state);
-    let sample = Sample::new(view, equations);
-    let mut event = Event::new(sample, name, equations.parameters(), hybrid.inputs);
-    let flow = handler(&mut event)?;
-    let (next, held, parameters) = (event.state, event.inputs, event.parameters);
+    let (mut next, mut held) = (*state, hybrid.inputs);
+    let (mut parameters, mut flow) = (None, ControlFlow::Continue(()));
+    march
+        .equations_mut()
+        .change_interactions(&mut |equations, interactions| {
+            let view = View::new(equations.constants(), time, state);
+            let sample = Sample::new(view, equations);
+            let former = (equations.parameters(), hybrid.inputs);
+            let mut event = Event::new((sample, name), former, interactions);
+            flow = handler(&mut event)?;
+            (next, held, parameters) = (event.state, event.inputs, event.parameters);
+            Ok(())
+        })?;
     if let Some(parameters) = parameters {
         let equations = march.equations_mut();
         equations.take_parameters(parameters)?;

@@ -8,8 +8,8 @@ use crate::run::driver::Driver;
 
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Begins all interactions anew, once their settings are accepted.
-    pub(crate) fn begin_interactions(&self) -> Result<(), Fault> {
-        for tracked in self.march.equations().interactions() {
+    pub(crate) fn begin_interactions(&mut self) -> Result<(), Fault> {
+        for tracked in self.march.equations_mut().interactions_mut() {
             tracked.interaction.check()?;
             tracked.begin();
         }
@@ -39,17 +39,16 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         bodies: &mut M::State<S>,
         moved: bool,
     ) -> Result<bool, Fault> {
-        let (equations, hybrid) = (self.march.equations(), &mut self.course.hybrid);
+        let (equations, hybrid) = (self.march.equations_mut(), &mut self.course.hybrid);
         let list = equations.interactions();
         hybrid.changes.count(time, hybrid.longest, list)?;
         *bodies = equations.strike(time, bodies, moved)?;
         hybrid.is_fresh = true;
-        hybrid.is_switched |= list.iter().any(|tracked| {
-            let status = tracked.status.get();
-            status.mode != status.before
-        });
+        let list = equations.interactions();
+        let switches = |tracked: &Tracked<S, M>| tracked.mode() != tracked.status.before;
+        hybrid.is_switched |= list.iter().any(switches);
         let now = |tracked: &Tracked<S, M>| {
-            let impact = tracked.status.get().impact;
+            let impact = tracked.status.impact;
             impact.is_some_and(|impact| impact.time == time)
         };
         Ok(list.iter().any(now))

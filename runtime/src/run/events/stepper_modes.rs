@@ -38,7 +38,8 @@ where
     /// # Errors
     /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
     pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, Fault> {
-        Ok(named(self.dynamics.tracked(), interaction)?.told_mode())
+        let (_, tracked) = named(self.dynamics.tracked(), interaction)?;
+        Ok(tracked.told_mode())
     }
 
     /// The effort of an interaction (N m, N) in a state, at the time that was reached. One
@@ -51,9 +52,12 @@ where
         interaction: InteractionHandle<M>,
         state: &C::State<S>,
     ) -> Result<S, Fault> {
-        let tracked = named(self.dynamics.tracked(), interaction)?;
-        self.dynamics.efforts(self.time(), state)?;
-        Ok(tracked.status.get().effort)
+        let (place, _) = named(self.dynamics.tracked(), interaction)?;
+        let mut effort = S::zero();
+        self.dynamics.efforts(self.time(), state, &mut |all| {
+            effort = all.get(place).map_or(effort, |exerted| exerted.effort);
+        })?;
+        Ok(effort)
     }
 
     /// The last impulse of an interaction so far, if there was one.
@@ -61,10 +65,8 @@ where
     /// # Errors
     /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
     pub fn impact(&self, interaction: InteractionHandle<M>) -> Result<Option<Impact<S>>, Fault> {
-        Ok(named(self.dynamics.tracked(), interaction)?
-            .status
-            .get()
-            .impact)
+        let (_, tracked) = named(self.dynamics.tracked(), interaction)?;
+        Ok(tracked.status.impact)
     }
 
     /// Engages dry friction, a brake or a clutch, from the next step on.
@@ -72,7 +74,7 @@ where
     /// # Errors
     /// [`Fault::NoSuchInteraction`]; [`Fault::MisplacedSetting`] of limits.
     pub fn engage(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
-        engage(self.dynamics.tracked(), interaction, true)
+        engage(self.dynamics.tracked_mut(), interaction, true)
     }
 
     /// Releases it, from the next step on.
@@ -80,7 +82,7 @@ where
     /// # Errors
     /// As [`Stepper::engage`].
     pub fn release(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
-        engage(self.dynamics.tracked(), interaction, false)
+        engage(self.dynamics.tracked_mut(), interaction, false)
     }
 
     /// Accepts the settings, once.
@@ -113,10 +115,7 @@ where
         let moved = self.moved(state, dt);
         let ended = moved.and_then(|next| self.end_step(state, next, dt));
         if ended.is_err() {
-            let now = self.dynamics.tracked().iter();
-            for (now, before) in now.zip(before.as_ref()) {
-                now.status.set(before.status.get());
-            }
+            self.dynamics.tracked_mut().copy_from_slice(before.as_ref());
         }
         ended
     }
@@ -131,10 +130,11 @@ where
         let dynamics = &mut self.dynamics;
         let mut next = dynamics.switched(start, state, true)?;
         for _ in 0..changes {
+            let mut modes = Modes::of(dynamics);
             let step = StepWithin::take(scheme, dynamics, (time, &next), left)?;
             let near = dynamics.bodies(&next);
             let mut within = Within {
-                dynamics: &*dynamics,
+                dynamics: &mut *dynamics,
                 state_at: |at: S| {
                     if at == end {
                         *step.end()
@@ -145,7 +145,6 @@ where
                 since: time,
                 near,
             };
-            let mut modes = Modes::of(dynamics);
             let found = first_root(&mut within, &mut modes, (time, end), true)?;
             let (found, near) = (found.map(|found| found.time), within.near);
             let reached = found.unwrap_or(end);
@@ -179,7 +178,7 @@ where
 
 /// A step that is looked into.
 struct Within<'s, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>, G> {
-    dynamics: &'s Dynamics<S, M, F, A, C>,
+    dynamics: &'s mut Dynamics<S, M, F, A, C>,
     state_at: G,
     /// The last look (s), and the bodies there.
     since: S,
@@ -195,7 +194,7 @@ where
     C: Coordinates<M>,
     G: Fn(S) -> C::State<S>,
 {
-    fn equations(&self) -> &dyn Evaluate<S, M> {
+    fn equations(&mut self) -> &mut dyn Evaluate<S, M> {
         self.dynamics
     }
 
@@ -205,7 +204,7 @@ where
         let (mut bodies, is_known) = self.dynamics.bodies_after(&state, (time - start, near));
         if !is_known {
             let at = |_: &mut &_, time| Ok((self.state_at)(time));
-            bodies = bodies_by_halves(self.dynamics, (start, near), time, at)?;
+            bodies = bodies_by_halves(&*self.dynamics, (start, near), time, at)?;
         }
         Ok(with_unit_orientations::<S, M>(&bodies))
     }
