@@ -13,10 +13,12 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Place};
 use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::efforts::refused;
+use crate::nonsmooth::law::pushes;
 use crate::nonsmooth::loads::BearingLoads;
+use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::sizes::{ROUND_OFF, part};
 use crate::nonsmooth::slipping::Slipping;
-use crate::nonsmooth::status::{InteractionMode, Next, Tracked};
+use crate::nonsmooth::status::{Next, Tracked};
 use crate::nonsmooth::switch::{no_mode, solved};
 
 /// What was found at its capacity slips, to this part of it: more than the floor of a problem.
@@ -132,21 +134,12 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
     }
 
     /// The bounds of an effort, where friction slides at a rate of a sign or may stick.
-    pub(super) fn bounds(&self, index: usize, sliding: Option<S>, load: S) -> (S, S) {
-        let tracked = &self.list[index];
-        let infinite = S::constant(f64::INFINITY);
-        match (tracked.status.next, sliding) {
-            (Next::On(sign), _) if sign > S::zero() => (S::zero(), infinite),
-            (Next::On(_), _) => (-infinite, S::zero()),
-            (_, Some(_)) => {
-                let effort = self.effort_of_sliding(index, sliding) * load;
-                (effort, effort)
-            }
-            (Next::Still, None) => {
-                let capacity = self.at_rest(index) * load;
-                (-capacity, capacity)
-            }
-            _ => (S::zero(), S::zero()),
+    pub(super) fn bounds(&self, index: usize, sliding: Option<S>, load: S) -> [S; 2] {
+        match (self.list[index].status.next, sliding) {
+            (Next::On(sign), _) => pushes(sign),
+            (_, Some(_)) => [self.effort_of_sliding(index, sliding) * load; 2],
+            (Next::Still, None) => self.at_rest(index).map(|bound| bound * load),
+            _ => [S::zero(); 2],
         }
     }
 
@@ -160,29 +153,31 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
             Next::Still => S::zero(),
             _ => self.rates[index],
         };
-        -sign * friction.sliding(rate)
+        friction.effort(sign, rate)
     }
 
-    /// The capacity at rest, over the load.
-    fn at_rest(&self, index: usize) -> S {
+    /// The bounds at rest, over the load.
+    fn at_rest(&self, index: usize) -> [S; 2] {
         let tracked = &self.list[index];
         let Some(friction) = tracked.friction() else {
-            return S::zero();
+            return [S::zero(); 2];
         };
+        let bounds = friction.bounds();
         // What was found at its capacity does not fall back by round-off.
         let status = tracked.status;
         let slips = status.is_found && status.before == InteractionMode::Sticking;
         if slips {
-            (S::one() - part::<S>(SLIPS, ROUND_OFF)) * friction.at_rest()
+            let rest = S::one() - part::<S>(SLIPS, ROUND_OFF);
+            bounds.map(|bound| rest * bound)
         } else {
-            friction.at_rest()
+            bounds
         }
     }
 
     fn bound(&self, problem: &mut BoxProblem<S, K>, sliding: &[Option<S>; K], loads: &[S; K]) {
         for index in 0..K {
             let bounds = self.bounds(index, sliding[index], loads[index]);
-            (problem.lower[index], problem.upper[index]) = bounds;
+            [problem.lower[index], problem.upper[index]] = bounds;
         }
     }
 
@@ -278,8 +273,8 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
             let sticks = tracked.status.next == Next::Still && sliding[index].is_none();
             let coefficient = match place {
                 Place::Inside => continue,
-                Place::Upper => self.at_rest(index),
-                Place::Lower => -self.at_rest(index),
+                Place::Upper => self.at_rest(index)[1],
+                Place::Lower => self.at_rest(index)[0],
             };
             guess.holds[index] = false;
             if sticks && tracked.bearing().is_some() {

@@ -8,11 +8,11 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors, Place};
 use crate::nonsmooth::capacities::Capacities;
 use crate::nonsmooth::columns::{Columns, Setting};
-use crate::nonsmooth::interaction::Law;
 use crate::nonsmooth::loads::{BearingLoads, Reactions};
+use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{AT_BOUND, ROUND_OFF, part};
-use crate::nonsmooth::status::{InteractionMode, Next, Tracked};
+use crate::nonsmooth::status::{Next, Tracked};
 use crate::nonsmooth::switch::Motion;
 use crate::state::vector::Array as _;
 
@@ -175,7 +175,7 @@ fn begin<S: Real, M: Mechanism, const K: usize>(
             continue;
         };
         let load = capacities.load(index, &solution.efforts);
-        let (effort, _) = capacities.bounds(index, Some(sign), load);
+        let [effort, _] = capacities.bounds(index, Some(sign), load);
         let is_changed = problem.lower[index] != effort && problem.upper[index] != effort;
         changes[index] = is_changed.then_some(acceleration);
     }
@@ -335,9 +335,9 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let reading = self.reading(scene);
         let round_off = S::constant(ROUND_OFF) * S::EPSILON;
         let floor = match mode {
-            InteractionMode::Free => match &self.interaction.law {
-                Law::Limits(limits) => self.round_off_of_gap(limits, scene),
-                Law::Friction(_) => S::zero(),
+            InteractionMode::Free => match self.interaction.law.limits() {
+                Some(limits) => self.round_off_of_gap(limits, scene),
+                None => S::zero(),
             },
             InteractionMode::AtLower | InteractionMode::AtUpper => {
                 part::<S>(AT_BOUND, ROUND_OFF) * effort.abs().max(alone)

@@ -4,7 +4,8 @@ use crate::error::{Fault, Unheeding};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::Several;
-use crate::nonsmooth::interaction::{Interaction, Law};
+use crate::nonsmooth::interaction::Interaction;
+use crate::nonsmooth::law::Law;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::state::vector::Array as _;
@@ -107,7 +108,7 @@ pub(crate) fn check_limits<S: Real, M: Mechanism>(
         bodies,
     };
     for interaction in described {
-        let (Law::Limits(limits), quantity) = (&interaction.law, &interaction.quantity) else {
+        let (Some(limits), quantity) = (interaction.law.limits(), &interaction.quantity) else {
             continue;
         };
         let [lower, upper] = limits.bounds;

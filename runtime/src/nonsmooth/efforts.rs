@@ -7,11 +7,12 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::Factors;
 use crate::nonsmooth::columns::{Columns, Setting};
-use crate::nonsmooth::interaction::Law;
+use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::loads::{BearingLoads, Reactions};
+use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::slipping::{Refusal, Slipping, held};
-use crate::nonsmooth::status::{Exerted, InteractionMode, Tracked};
+use crate::nonsmooth::status::{Exerted, Tracked};
 use crate::state::vector::Array;
 
 /// What is done with what all interactions exert, in their order.
@@ -24,26 +25,22 @@ const ROUNDS: usize = 2;
 impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// The effort of friction that slides, which is known; `None` in another mode.
     pub(crate) fn sliding_effort(&self, scene: &Scene<'_, S, M>) -> Option<S> {
-        let sign = self.mode().sliding::<S>()?;
-        let Law::Friction(friction) = self.interaction.law else {
-            return None;
-        };
-        if friction.bearing.is_some() {
+        if self.bearing().is_some() {
             return None;
         }
-        let rate = self.interaction.quantity.rate(scene);
-        Some(-sign * friction.sliding(rate))
+        self.effort_of_sliding(scene)
     }
 
     /// The effort over the load of friction that slides by it.
     fn slipping(&self, scene: &Scene<'_, S, M>) -> Option<S> {
+        self.bearing()?;
+        self.effort_of_sliding(scene)
+    }
+
+    fn effort_of_sliding(&self, scene: &Scene<'_, S, M>) -> Option<S> {
         let sign = self.mode().sliding::<S>()?;
-        let Law::Friction(friction) = self.interaction.law else {
-            return None;
-        };
-        friction.bearing?;
-        let rate = self.interaction.quantity.rate(scene);
-        Some(-sign * friction.sliding(rate))
+        let friction = self.friction()?;
+        Some(friction.effort(sign, self.interaction.quantity.rate(scene)))
     }
 
     /// Its power (W) in a state by its effort. What holds has none: its rate is zero.
@@ -230,18 +227,11 @@ where
 impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// How far it is from where it is held; zero where nothing but the rate is.
     fn beyond(&self, scene: &Scene<'_, S, M>) -> S {
-        let quantity = &self.interaction.quantity;
-        match (self.mode(), &self.interaction.law) {
-            (InteractionMode::AtLower, Law::Limits(limits)) => {
-                quantity.beyond(scene, limits.bounds[0])
-            }
-            (InteractionMode::AtUpper, Law::Limits(limits)) => {
-                quantity.beyond(scene, limits.bounds[1])
-            }
-            (InteractionMode::Sticking, _) if quantity.has_value() => {
-                quantity.beyond(scene, self.status.held)
-            }
-            _ => S::zero(),
-        }
+        let Interaction { quantity, law, .. } = &self.interaction;
+        let held = match self.mode() {
+            InteractionMode::Sticking => quantity.has_value().then_some(self.status.held),
+            mode => law.held_at(mode),
+        };
+        held.map_or(S::zero(), |held| quantity.beyond(scene, held))
     }
 }

@@ -7,7 +7,8 @@ use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::interaction::{Interaction, Law};
+use crate::nonsmooth::interaction::Interaction;
+use crate::nonsmooth::law::Law;
 use crate::nonsmooth::quantity::{JointQuantity, JointReading, Quantity};
 use crate::nonsmooth::status::Tracked;
 
@@ -165,7 +166,7 @@ pub(crate) fn named<S: Real, M: Mechanism>(
             let limits_it = |(_, tracked): &(usize, &Tracked<S, M>)| {
                 let Interaction { quantity, law, .. } = &tracked.interaction;
                 let is_of_it = matches!(quantity, Quantity::Joint(of) if *of == reading);
-                is_of_it && matches!(law, Law::Limits(_)) && !tracked.interaction.is_dropped
+                is_of_it && law.limits().is_some() && !tracked.interaction.is_dropped
             };
             all.find(limits_it).ok_or(Fault::NoSuchLimits {
                 joint: Quantity::<S>::Joint(reading).name::<M>(),
@@ -181,7 +182,7 @@ pub(crate) fn engage<S: Real, M: Mechanism>(
     is_engaged: bool,
 ) -> Result<(), Fault> {
     let (place, tracked) = named(list, handle)?;
-    if let Law::Limits(_) = tracked.interaction.law {
+    if tracked.interaction.law.limits().is_some() {
         return Err(Fault::MisplacedSetting {
             joint: tracked.interaction.name(),
             setting: if is_engaged { "engage" } else { "release" },

@@ -10,6 +10,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::JointLimits;
 use crate::mechanism::point::Located;
 use crate::nonsmooth::bearing::{Bearing, HasBearing};
+use crate::nonsmooth::law::{Friction, Law, Limits, Rest};
 use crate::nonsmooth::place::{At, Plane};
 use crate::nonsmooth::quantity::{JointQuantity, JointReading, Quantity};
 
@@ -45,76 +46,6 @@ impl<S: Debug, M> Debug for Interaction<S, M> {
     }
 }
 
-/// The efforts that are possible.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Law<S> {
-    Limits(Limits<S>),
-    Friction(Friction<S>),
-}
-
-/// Two ends that a quantity does not pass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Limits<S> {
-    pub(crate) bounds: [S; 2],
-    pub(crate) restitution: S,
-    /// An approach below this rate, or below a part of the fastest one, has no restitution.
-    pub(crate) rest: Rest<S>,
-}
-
-/// From which approach on there is no restitution.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Rest<S> {
-    /// Below a rate.
-    Below(S),
-    /// Below a part of the fastest approach so far.
-    Part(S),
-}
-
-/// Dry friction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Friction<S> {
-    /// The largest effort while it slides; over the load of its bearing, where it has one.
-    pub(crate) capacity: S,
-    /// The largest effort while it sticks, where it is another.
-    pub(crate) stiction: Option<S>,
-    /// The rate at which the one has fallen towards the other.
-    pub(crate) stribeck: Option<S>,
-    pub(crate) is_engaged: bool,
-    /// What bears the load that it goes with.
-    pub(crate) bearing: Option<Bearing<S>>,
-}
-
-impl<S: Real> Friction<S> {
-    /// The largest effort while it sticks.
-    pub(crate) fn at_rest(&self) -> S {
-        self.stiction.unwrap_or(self.capacity)
-    }
-
-    /// The effort against sliding at a rate.
-    pub(crate) fn sliding(&self, rate: S) -> S {
-        let (Some(stiction), Some(stribeck)) = (self.stiction, self.stribeck) else {
-            return self.capacity;
-        };
-        let part = rate.quotient(stribeck);
-        (stiction - self.capacity).fused((-(part * part)).exp(), self.capacity)
-    }
-}
-
-fn is_nan<S: Real>(number: S) -> bool {
-    number.to_f64().is_nan()
-}
-
-/// An approach below this part of the fastest one has no restitution.
-const REST: f64 = 1e-4;
-
-/// Nor has one that leads to less of a height than so many `EPSILON`, which go with its square.
-const HEIGHT: f64 = 1e3;
-
-fn part_of_rest<S: Real>() -> Rest<S> {
-    let resolved = (S::constant(HEIGHT) * S::EPSILON).sqrt();
-    Rest::Part(S::constant(REST).max(resolved))
-}
-
 impl<S: Real, M: Mechanism> Interaction<S, M> {
     fn new(quantity: Quantity<S>, law: Law<S>) -> Self {
         Self {
@@ -137,9 +68,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
             JointReading::Displacement(limits.joint)
         };
         let law = Limits {
-            bounds: limits.bounds,
             restitution: limits.restitution,
-            rest: part_of_rest(),
+            ..Limits::between(limits.bounds)
         };
         let interaction = Self::new(Quantity::Joint(reading), Law::Limits(law));
         Self {
@@ -179,12 +109,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// be more than a turn apart, and are meant as they are written.
     #[must_use]
     pub fn limits(quantity: JointQuantity<M>, bounds: [S; 2]) -> Self {
-        let limits = Limits {
-            bounds,
-            restitution: S::zero(),
-            rest: part_of_rest(),
-        };
-        Self::new(Quantity::Joint(quantity.reading), Law::Limits(limits))
+        let law = Law::Limits(Limits::between(bounds));
+        Self::new(Quantity::Joint(quantity.reading), law)
     }
 
     /// A point of a body, or a centre of mass, that does not pass a plane: a limit on its distance
@@ -202,12 +128,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     }
 
     fn apart(quantity: Quantity<S>, least: S) -> Self {
-        let limits = Limits {
-            bounds: [least, S::constant(f64::INFINITY)],
-            restitution: S::zero(),
-            rest: part_of_rest(),
-        };
-        Self::new(quantity, Law::Limits(limits))
+        let bounds = [least, S::constant(f64::INFINITY)];
+        Self::new(quantity, Law::Limits(Limits::between(bounds)))
     }
 
     /// The least distance (m) of a point from the plane of [`Interaction::contact`]; the radius (m)
@@ -356,14 +278,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     }
 
     fn dry(quantity: Quantity<S>, capacity: S) -> Self {
-        let friction = Friction {
-            capacity,
-            stiction: None,
-            stribeck: None,
-            is_engaged: true,
-            bearing: None,
-        };
-        Self::new(quantity, Law::Friction(friction))
+        Self::new(quantity, Law::Friction(Friction::of(capacity)))
     }
 
     /// Newton's coefficient of restitution of [`Interaction::limits`], from 0 to 1: the rate after
@@ -470,43 +385,17 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         {
             return refuse("normal", S::zero());
         }
-        let zero = S::zero();
-        match self.law {
-            Law::Limits(limits) => {
-                let [lower, upper] = limits.bounds;
-                if lower >= upper || is_nan(lower) || is_nan(upper) {
-                    return refuse("lower limit", lower);
-                }
-                if !(limits.restitution >= zero && limits.restitution <= S::one()) {
-                    return refuse("restitution", limits.restitution);
-                }
-                let (Rest::Below(rate) | Rest::Part(rate)) = limits.rest;
-                if !(rate >= zero && rate.is_finite()) {
-                    return refuse("rate of rest", rate);
-                }
+        if let Err((setting, value)) = self.law.check() {
+            return refuse(setting, value);
+        }
+        if let Law::Friction(friction) = &self.law {
+            if let Some(bearing) = &friction.bearing {
+                self.check_bearing(friction, bearing)?;
             }
-            Law::Friction(friction) => {
-                if friction.capacity < zero || is_nan(friction.capacity) {
-                    return refuse("capacity", friction.capacity);
-                }
-                if let Some(stiction) = friction.stiction
-                    && (stiction < friction.capacity || is_nan(stiction))
-                {
-                    return refuse("stiction", stiction);
-                }
-                if let Some(rate) = friction.stribeck
-                    && !(rate > zero && rate.is_finite() && friction.stiction.is_some())
-                {
-                    return refuse("stribeck", rate);
-                }
-                if let Some(bearing) = &friction.bearing {
-                    self.check_bearing(&friction, bearing)?;
-                }
-                if let Quantity::Difference(_, _, ratio) = self.quantity
-                    && !ratio.is_finite()
-                {
-                    return refuse("ratio", ratio);
-                }
+            if let Quantity::Difference(_, _, ratio) = self.quantity
+                && !ratio.is_finite()
+            {
+                return refuse("ratio", ratio);
             }
         }
         Ok(())

@@ -10,15 +10,15 @@
 //! `impulse.rs` is the impact of an event of the user's own. Points and planes are in `place.rs`.
 //!
 //! Within a step the modes are fixed (`efforts.rs`). Between steps `switch.rs` finds impulses, then
-//! `choice.rs` modes. `interaction.rs` is what a user writes, `handle.rs` what it is
-//! called by, `status.rs` what a run knows of it.
+//! `choice.rs` modes. All of them ask `law.rs` what efforts and impulses are possible.
+//! `interaction.rs` is what a user writes, `handle.rs` what it is called by, `status.rs` what a run
+//! knows of it.
 //!
 //! `described.rs` has the limits of a description. `remembered.rs` hands their statuses to
 //! checkpoints.
 //!
 //! Friction by the load of its joint: `bearing.rs` reads the load, `loads.rs` has it as a function
 //! of efforts, `slipping.rs` solves for what slides, `capacities.rs` for what may stick.
-//!
 //!
 //! The reasons are in `docs/decisions/027-interactions.md` and `032-friction-by-load.md`.
 
@@ -32,7 +32,9 @@ pub(crate) mod efforts;
 pub(crate) mod handle;
 pub(crate) mod impulse;
 pub(crate) mod interaction;
+mod law;
 pub(crate) mod loads;
+pub(crate) mod mode;
 pub(crate) mod place;
 pub(crate) mod quantity;
 mod remembered;

@@ -6,7 +6,8 @@
 use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::status::{Impact, InteractionMode, Status, Tracked};
+use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::status::{Impact, Status, Tracked};
 
 /// In the order in which checkpoints count them.
 const MODES: [InteractionMode; 7] = [

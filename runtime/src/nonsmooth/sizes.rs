@@ -8,7 +8,7 @@ use crate::constraints::extent::largest;
 use crate::math::scalar::Real;
 use crate::math::vec3::{norm, read};
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::interaction::Limits;
+use crate::nonsmooth::law::Limits;
 use crate::nonsmooth::quantity::{JointReading, Quantity};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;

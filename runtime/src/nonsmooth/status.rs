@@ -4,45 +4,10 @@ use crate::integrate::Memory;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::bearing::Bearing;
-use crate::nonsmooth::interaction::{Interaction, Law};
+use crate::nonsmooth::interaction::Interaction;
+use crate::nonsmooth::law::Law;
+use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
-
-/// The mode of an [`Interaction`](crate::run::Interaction).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub enum InteractionMode {
-    /// Between two limits: no effort.
-    Free,
-    /// On the lower limit, which pushes upwards.
-    AtLower,
-    /// On the upper limit, which pushes downwards.
-    AtUpper,
-    /// Held by friction.
-    Sticking,
-    /// Friction against a positive rate.
-    SlidingUp,
-    /// Friction against a negative rate.
-    SlidingDown,
-    /// A brake or a clutch that is not engaged.
-    Released,
-}
-
-impl InteractionMode {
-    /// Whether it keeps the quantity where it is.
-    pub(crate) fn holds(self) -> bool {
-        matches!(self, Self::AtLower | Self::AtUpper | Self::Sticking)
-    }
-
-    /// The sign of the rate at which it slides.
-    pub(crate) fn sliding<S: Real>(self) -> Option<S> {
-        match self {
-            Self::SlidingUp => Some(S::one()),
-            Self::SlidingDown => Some(-S::one()),
-            _ => None,
-        }
-    }
-}
 
 /// An impact or another impulse on a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,19 +112,17 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 
     /// As at the start of a run.
     pub(crate) fn begin(&mut self) {
-        self.status = Status::new();
-        if let Law::Friction(friction) = self.interaction.law {
-            self.status.is_engaged = friction.is_engaged;
-            self.status.mode = InteractionMode::Released;
-        }
+        let law = &self.interaction.law;
+        self.status = Status {
+            is_engaged: law.is_engaged(),
+            mode: law.first_mode(),
+            ..Status::new()
+        };
     }
 
     /// What bears the load that its friction goes with.
     pub(crate) fn bearing(&self) -> Option<&Bearing<S>> {
-        match &self.interaction.law {
-            Law::Friction(friction) => friction.bearing.as_ref(),
-            Law::Limits(_) => None,
-        }
+        self.interaction.law.bearing()
     }
 
     /// The mode.
@@ -186,23 +149,15 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let Interaction { quantity, law, .. } = &self.interaction;
         let Exerted { effort, capacity } = self.status.exerted;
         match (self.mode(), law) {
-            (InteractionMode::Free, Law::Limits(limits)) => {
-                let [lower, upper] = limits.bounds;
-                let value = quantity.value(scene);
-                (value - lower).min(upper - value)
-            }
+            (InteractionMode::Free, Law::Limits(limits)) => limits.gap(quantity.value(scene)).0,
             (InteractionMode::AtLower, _) => effort,
             (InteractionMode::AtUpper, _) => -effort,
             (InteractionMode::Sticking, Law::Friction(friction)) => {
-                let capacity = match friction.bearing {
-                    Some(_) => capacity,
-                    None => friction.at_rest(),
+                let [lower, upper] = match friction.bearing {
+                    Some(_) => [-capacity, capacity],
+                    None => friction.bounds(),
                 };
-                if capacity.is_finite() {
-                    capacity - effort.abs()
-                } else {
-                    never
-                }
+                (effort - lower).min(upper - effort)
             }
             (mode, _) => match mode.sliding::<S>() {
                 Some(sign) => sign * quantity.rate(scene),

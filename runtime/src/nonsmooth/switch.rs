@@ -7,10 +7,11 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors};
 use crate::nonsmooth::columns::{Columns, Setting};
-use crate::nonsmooth::interaction::{Friction, Law, Limits, Rest};
+use crate::nonsmooth::law::{Friction, Limits, pushes};
+use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{AT_REST, OF_TIME, ROUND_OFF, part};
-use crate::nonsmooth::status::{Impact, InteractionMode, Next, Status, Tracked};
+use crate::nonsmooth::status::{Impact, Next, Status, Tracked};
 use crate::state::vector::{Array, StateParts as _};
 
 /// How a quantity moves at an instant.
@@ -53,10 +54,8 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// What comes after an instant: of a quantity on a limit or engaged, that rests there or goes
     /// on. Nothing of one that is held without a bound and does not rest.
     fn next(&self, one: &Struck<S>) -> Option<Next<S>> {
-        let is_held = self
-            .friction()
-            .is_some_and(|held| !held.capacity.is_finite());
-        if is_held && one.is_engaged && !one.rests {
+        let stops = |friction: &Friction<S>| friction.impulses().is_some();
+        if self.friction().is_some_and(stops) && one.is_engaged && !one.rests {
             return None;
         }
         Some(match one.at_limit {
@@ -76,10 +75,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     }
 
     pub(super) fn friction(&self) -> Option<&Friction<S>> {
-        match &self.interaction.law {
-            Law::Friction(friction) => Some(friction),
-            Law::Limits(_) => None,
-        }
+        self.interaction.law.friction()
     }
 
     /// The limit that the quantity is on, by its sign; the fault where it is beyond.
@@ -88,17 +84,15 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             return Ok(None);
         }
         let status = self.status;
-        let [lower, upper] = limits.bounds;
         let near = self.near(limits, scene);
         let value = self.interaction.quantity.value(scene);
-        let gaps = [value - lower, upper - value];
-        let is_lower = gaps[0] <= gaps[1];
-        let gap = gaps[0].min(gaps[1]);
+        let (gap, is_lower) = limits.gap(value);
+        let sign = if is_lower { S::one() } else { -S::one() };
         if gap < -near.held {
             return Err(Fault::BeyondLimit {
                 joint: self.interaction.name(),
                 value: value.to_f64(),
-                limit: if is_lower { lower } else { upper }.to_f64(),
+                limit: limits.bound(sign).to_f64(),
             });
         }
         let is_held = match status.mode {
@@ -107,7 +101,6 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             _ => status.is_found,
         };
         let is_on = gap <= if is_held { near.held } else { near.free };
-        let sign = if is_lower { S::one() } else { -S::one() };
         Ok(is_on.then_some(sign))
     }
 }
@@ -164,7 +157,7 @@ where
     let mut all: [Struck<S>; K] =
         setting.here(|scene| list.each_mut().map(|tracked| Struck::of(tracked, scene)));
     for (index, tracked) in list.iter().enumerate() {
-        if let Law::Limits(limits) = &tracked.interaction.law {
+        if let Some(limits) = tracked.interaction.law.limits() {
             let limit = setting.here(|scene| tracked.limit(limits, scene));
             all[index].at_limit = limit.map_err(|fault| driven(setting, list, index, fault))?;
         }
@@ -280,7 +273,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     fn unresolved(&self, time: S, compliance: S) -> S {
         let capacity = match self.friction() {
             Some(friction) if friction.bearing.is_some() => self.status.exerted.capacity,
-            Some(friction) if friction.capacity.is_finite() => friction.capacity,
+            Some(friction) if friction.impulses().is_none() => friction.capacity,
             _ => return S::zero(),
         };
         compliance * capacity * S::constant(OF_TIME) * time.ulp()
@@ -294,28 +287,25 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         problem: &mut BoxProblem<S, K>,
         index: usize,
     ) -> bool {
-        let (motion, infinite) = (&one.motion, S::constant(f64::INFINITY));
-        match (&self.interaction.law, one.at_limit) {
-            (Law::Limits(limits), Some(sign)) => {
-                if sign > S::zero() {
-                    problem.upper[index] = infinite;
-                } else {
-                    problem.lower[index] = -infinite;
-                }
-                let approach = -(sign * motion.rate);
-                let is_struck = approach > motion.none();
-                if is_struck {
-                    let restitution = self.status.restitution(limits, approach);
-                    problem.offset[index] = (S::one() + restitution) * motion.rate;
-                }
-                is_struck
+        let (motion, law) = (&one.motion, &self.interaction.law);
+        let (impulses, is_struck) = if let (Some(limits), Some(sign)) = (law.limits(), one.at_limit)
+        {
+            let approach = -(sign * motion.rate);
+            let is_struck = approach > motion.none();
+            if is_struck {
+                let restitution = self.status.restitution(limits, approach);
+                problem.offset[index] = (S::one() + restitution) * motion.rate;
             }
-            (Law::Friction(friction), _) if one.is_engaged && !friction.capacity.is_finite() => {
-                (problem.lower[index], problem.upper[index]) = (-infinite, infinite);
-                motion.rate.abs() > motion.none()
-            }
-            _ => false,
-        }
+            (pushes(sign), is_struck)
+        } else if let (true, Some(impulses)) =
+            (one.is_engaged, law.friction().and_then(Friction::impulses))
+        {
+            (impulses, motion.rate.abs() > motion.none())
+        } else {
+            return false;
+        };
+        [problem.lower[index], problem.upper[index]] = impulses;
+        is_struck
     }
 
     /// Refuses an impulse that has not stopped what approaches a limit: a driver moves it.
@@ -324,7 +314,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         setting: &Setting<'_, S, M, F, C>,
         one: &Struck<S>,
     ) -> Result<(), Fault> {
-        let (Law::Limits(limits), Some(sign)) = (&self.interaction.law, one.at_limit) else {
+        let (Some(limits), Some(sign)) = (self.interaction.law.limits(), one.at_limit) else {
             return Ok(());
         };
         let approaches = -(sign * one.before);
@@ -333,9 +323,8 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         if !goes_on {
             return Ok(());
         }
-        let [lower, upper] = limits.bounds;
-        let limit = if sign > S::zero() { lower } else { upper };
-        let driven = against(setting, self.interaction.name(), limit.to_f64());
+        let limit = limits.bound(sign).to_f64();
+        let driven = against(setting, self.interaction.name(), limit);
         Err(driven.unwrap_or_else(|| no_mode(setting, self)))
     }
 }
@@ -344,15 +333,11 @@ impl<S: Real> Status<S> {
     /// The restitution of an approach.
     fn restitution(&mut self, limits: &Limits<S>, approach: S) -> S {
         self.fastest = self.fastest.max(approach);
-        let least = match limits.rest {
-            Rest::Below(rate) => rate,
-            Rest::Part(part) => part * self.fastest,
-        };
         // What does not rise above round-off does not bounce.
-        if approach < least || self.has_not_flown() {
+        if self.has_not_flown() {
             S::zero()
         } else {
-            limits.restitution
+            limits.restitution(approach, self.fastest)
         }
     }
 }

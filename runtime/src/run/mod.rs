@@ -84,9 +84,10 @@ pub use crate::nonsmooth::bearing::HasBearing;
 pub use crate::nonsmooth::described::{Beside, Limited};
 pub use crate::nonsmooth::handle::InteractionHandle;
 pub use crate::nonsmooth::interaction::Interaction;
+pub use crate::nonsmooth::mode::InteractionMode;
 pub use crate::nonsmooth::place::Plane;
 pub use crate::nonsmooth::quantity::JointQuantity;
-pub use crate::nonsmooth::status::{Impact, InteractionMode};
+pub use crate::nonsmooth::status::Impact;
 pub use crate::stepping::watch::Crossing;
 #[cfg(feature = "std")]
 pub use checkpoint::Checkpoint;

@@ -17,8 +17,9 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
 use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::handle::{InteractionHandle, named};
+use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::status::{Impact, InteractionMode, Tracked};
+use crate::nonsmooth::status::{Impact, Tracked};
 use crate::state::vector::StateParts;
 
 /// A state at a reporting time: a [`View`], and what takes an evaluation.

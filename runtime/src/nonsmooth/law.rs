@@ -1,0 +1,244 @@
+//! What an interaction can do along its quantity: efforts, impulses, and the ends of its modes.
+//!
+//! Efforts and impulses are positive upwards. Those of friction by load are over that load. All that
+//! is asked of a law by what solves for modes is asked here: another law is another answer.
+
+use crate::math::scalar::Real;
+use crate::nonsmooth::bearing::Bearing;
+use crate::nonsmooth::mode::InteractionMode;
+
+/// An approach below this part of the fastest one has no restitution.
+const REST: f64 = 1e-4;
+
+/// Nor has one that leads to less of a height than so many `EPSILON`, which go with its square.
+const HEIGHT: f64 = 1e3;
+
+/// The efforts that are possible.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Law<S> {
+    Limits(Limits<S>),
+    Friction(Friction<S>),
+}
+
+/// Two ends that a quantity does not pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Limits<S> {
+    pub(crate) bounds: [S; 2],
+    pub(crate) restitution: S,
+    /// An approach below this rate, or below a part of the fastest one, has no restitution.
+    pub(crate) rest: Rest<S>,
+}
+
+/// From which approach on there is no restitution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Rest<S> {
+    /// Below a rate.
+    Below(S),
+    /// Below a part of the fastest approach so far.
+    Part(S),
+}
+
+/// Dry friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Friction<S> {
+    /// The largest effort while it slides; over the load of its bearing, where it has one.
+    pub(crate) capacity: S,
+    /// The largest effort while it sticks, where it is another.
+    pub(crate) stiction: Option<S>,
+    /// The rate at which the one has fallen towards the other.
+    pub(crate) stribeck: Option<S>,
+    pub(crate) is_engaged: bool,
+    /// What bears the load that it goes with.
+    pub(crate) bearing: Option<Bearing<S>>,
+}
+
+/// A setting that is not acceptable, with its value.
+type Refused<S> = (&'static str, S);
+
+impl<S: Real> Law<S> {
+    /// The mode before a run has found one.
+    pub(crate) fn first_mode(&self) -> InteractionMode {
+        match self {
+            Self::Limits(_) => InteractionMode::Free,
+            Self::Friction(_) => InteractionMode::Released,
+        }
+    }
+
+    /// Whether it is engaged at the start. Limits always are.
+    pub(crate) fn is_engaged(&self) -> bool {
+        self.friction().is_none_or(|friction| friction.is_engaged)
+    }
+
+    pub(crate) fn limits(&self) -> Option<&Limits<S>> {
+        match self {
+            Self::Limits(limits) => Some(limits),
+            Self::Friction(_) => None,
+        }
+    }
+
+    pub(crate) fn friction(&self) -> Option<&Friction<S>> {
+        match self {
+            Self::Friction(friction) => Some(friction),
+            Self::Limits(_) => None,
+        }
+    }
+
+    /// What bears the load that it goes with.
+    pub(crate) fn bearing(&self) -> Option<&Bearing<S>> {
+        self.friction()?.bearing.as_ref()
+    }
+
+    /// The value at which a mode holds the quantity, where the law has it.
+    pub(crate) fn held_at(&self, mode: InteractionMode) -> Option<S> {
+        let [lower, upper] = self.limits()?.bounds;
+        match mode {
+            InteractionMode::AtLower => Some(lower),
+            InteractionMode::AtUpper => Some(upper),
+            _ => None,
+        }
+    }
+
+    /// Refuses settings that are not acceptable.
+    pub(crate) fn check(&self) -> Result<(), Refused<S>> {
+        match self {
+            Self::Limits(limits) => limits.check(),
+            Self::Friction(friction) => friction.check(),
+        }
+    }
+}
+
+impl<S: Real> Limits<S> {
+    /// Without restitution.
+    pub(crate) fn between(bounds: [S; 2]) -> Self {
+        Self {
+            bounds,
+            restitution: S::zero(),
+            rest: Rest::by_default(),
+        }
+    }
+
+    /// How far a value is from the nearer one, negative beyond it, and whether that is the lower
+    /// one.
+    pub(crate) fn gap(&self, value: S) -> (S, bool) {
+        let [lower, upper] = self.bounds;
+        let (above, below) = (value - lower, upper - value);
+        (above.min(below), above <= below)
+    }
+
+    /// The limit that pushes with this sign.
+    pub(crate) fn bound(&self, sign: S) -> S {
+        let [lower, upper] = self.bounds;
+        if sign > S::zero() { lower } else { upper }
+    }
+
+    /// The restitution of an approach, beside the fastest one so far.
+    pub(crate) fn restitution(&self, approach: S, fastest: S) -> S {
+        let least = match self.rest {
+            Rest::Below(rate) => rate,
+            Rest::Part(part) => part * fastest,
+        };
+        if approach < least {
+            S::zero()
+        } else {
+            self.restitution
+        }
+    }
+
+    fn check(&self) -> Result<(), Refused<S>> {
+        let ([lower, upper], zero) = (self.bounds, S::zero());
+        if lower >= upper || is_nan(lower) || is_nan(upper) {
+            return Err(("lower limit", lower));
+        }
+        if !(self.restitution >= zero && self.restitution <= S::one()) {
+            return Err(("restitution", self.restitution));
+        }
+        let (Rest::Below(rate) | Rest::Part(rate)) = self.rest;
+        if !(rate >= zero && rate.is_finite()) {
+            return Err(("rate of rest", rate));
+        }
+        Ok(())
+    }
+}
+
+/// Efforts and impulses of a limit that pushes with a sign: it does not pull.
+pub(crate) fn pushes<S: Real>(sign: S) -> [S; 2] {
+    let infinite = S::constant(f64::INFINITY);
+    if sign > S::zero() {
+        [S::zero(), infinite]
+    } else {
+        [-infinite, S::zero()]
+    }
+}
+
+impl<S: Real> Rest<S> {
+    /// Where nothing is said.
+    pub(crate) fn by_default() -> Self {
+        let resolved = (S::constant(HEIGHT) * S::EPSILON).sqrt();
+        Self::Part(S::constant(REST).max(resolved))
+    }
+}
+
+impl<S: Real> Friction<S> {
+    /// Coulomb's, engaged.
+    pub(crate) fn of(capacity: S) -> Self {
+        Self {
+            capacity,
+            stiction: None,
+            stribeck: None,
+            is_engaged: true,
+            bearing: None,
+        }
+    }
+
+    /// The largest effort while it sticks.
+    pub(crate) fn at_rest(&self) -> S {
+        self.stiction.unwrap_or(self.capacity)
+    }
+
+    /// The least and the largest effort while it sticks.
+    pub(crate) fn bounds(&self) -> [S; 2] {
+        let capacity = self.at_rest();
+        [-capacity, capacity]
+    }
+
+    /// The effort of sliding at a rate of a sign, which the rate may not have yet.
+    pub(crate) fn effort(&self, sign: S, rate: S) -> S {
+        -sign * self.against(rate)
+    }
+
+    /// The size of the effort against sliding at a rate.
+    fn against(&self, rate: S) -> S {
+        let (Some(stiction), Some(stribeck)) = (self.stiction, self.stribeck) else {
+            return self.capacity;
+        };
+        let part = rate.quotient(stribeck);
+        (stiction - self.capacity).fused((-(part * part)).exp(), self.capacity)
+    }
+
+    /// The impulses by which it stops its quantity at once; `None` where it has efforts alone.
+    pub(crate) fn impulses(&self) -> Option<[S; 2]> {
+        let infinite = S::constant(f64::INFINITY);
+        (!self.capacity.is_finite()).then_some([-infinite, infinite])
+    }
+
+    fn check(&self) -> Result<(), Refused<S>> {
+        if self.capacity < S::zero() || is_nan(self.capacity) {
+            return Err(("capacity", self.capacity));
+        }
+        if let Some(stiction) = self.stiction
+            && (stiction < self.capacity || is_nan(stiction))
+        {
+            return Err(("stiction", stiction));
+        }
+        match self.stribeck {
+            Some(rate) if !(rate > S::zero() && rate.is_finite() && self.stiction.is_some()) => {
+                Err(("stribeck", rate))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn is_nan<S: Real>(number: S) -> bool {
+    number.to_f64().is_nan()
+}
