@@ -13,7 +13,7 @@ use crate::mechanism::orientations::check_state;
 use crate::nonsmooth::status::Tracked;
 use crate::run::driver::Driver;
 use crate::run::events::context::Event;
-use crate::run::events::list::{Happening, Hybrid};
+use crate::run::events::list::{Happening, Hybrid, Phase};
 use crate::run::events::sizes::{ahead, rate, round_off, shaken};
 use crate::run::sample::Sample;
 use crate::state::vector::{Array, StateParts, Vector as _};
@@ -51,15 +51,6 @@ impl Done {
 pub(crate) type Handler<'h, S, M> =
     dyn FnMut(&mut Event<'_, S, M>) -> Result<ControlFlow<()>, Fault> + 'h;
 
-/// What is called at an instant.
-#[derive(Clone, Copy, PartialEq)]
-enum Called<S> {
-    /// Those of the events that pass their zeros at a time (s): at the instant, or by its round-off
-    /// before it.
-    Handlers(S),
-    Controllers,
-}
-
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Calls controllers at the start, and takes the readings there. Whether one stops the run.
     pub(crate) fn begin_events(
@@ -75,7 +66,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         self.begin_interactions()?;
         self.stand(*time, state, true)?;
         let before = self.watched_energies(*time, state);
-        let done = self.call(Called::Controllers, *time, state)?;
+        let done = self.call(Phase::Controllers, *time, state)?;
         self.stand(*time, state, true)?;
         if self.switch(*time, state, true)? {
             self.stand(*time, state, true)?;
@@ -98,7 +89,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             return Ok(false);
         }
         let before = self.watched_energies(*time, state);
-        let done = self.call(Called::Controllers, *time, state)?;
+        let done = self.call(Phase::Controllers, *time, state)?;
         if done.changed {
             self.switch(*time, state, true)?;
         }
@@ -140,7 +131,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             done.stops = handled.stops;
         }
         if !done.stops && time < self.course.hybrid.end {
-            let controlled = self.call(Called::Controllers, time, state)?;
+            let controlled = self.call(Phase::Controllers, time, state)?;
             self.follow(&controlled, time, state)?;
             done.stops = controlled.stops;
         }
@@ -201,28 +192,18 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             let Some(root) = next else {
                 return Ok(done);
             };
-            let now = self.call(Called::Handlers(root), time, state)?;
+            let now = self.call(Phase::Handlers(root), time, state)?;
             done.and(now);
             handled = Some(root);
         }
     }
 
     /// Calls what is due at a time, one after the other: each sees what the former have done.
-    fn call(&mut self, called: Called<S>, time: S, state: &mut M::State<S>) -> Result<Done, Fault> {
+    fn call(&mut self, phase: Phase<S>, time: S, state: &mut M::State<S>) -> Result<Done, Fault> {
         let mut done = Done::nothing();
         let (march, hybrid) = (&mut *self.march, &mut self.course.hybrid);
         self.list.each(&mut |happening: &mut dyn Happening<S, M>| {
-            let name = match called {
-                Called::Handlers(root) => happening
-                    .watch()
-                    .filter(|watch| watch.root() == Some(root))
-                    .map(|watch| watch.name()),
-                Called::Controllers => happening
-                    .period()
-                    .is_some_and(|period| period.is_due(time))
-                    .then_some(""),
-            };
-            let Some(name) = name else {
+            let Some(name) = happening.due(time, phase) else {
                 return Ok(());
             };
             let handler = &mut |event: &mut Event<'_, S, M>| happening.act(event);

@@ -17,9 +17,25 @@ use crate::run::sample::Sample;
 use crate::run::trajectory::Trajectory;
 use crate::stepping::watch::{Period, Watch};
 
+/// Of what an instant between two integrations calls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(hidden)]
+pub enum Phase<S> {
+    /// Handlers of the events that pass their zeros at a time (s): at the instant, or by its
+    /// round-off before it.
+    Handlers(S),
+    /// Controllers, behind all handlers.
+    Controllers,
+}
+
 /// Something that happens in a run.
 #[doc(hidden)]
 pub trait Happening<S: Real, M: Mechanism> {
+    /// Whether it is called in a phase of an instant (s), and by what name. It counts the call.
+    fn due(&mut self, _time: S, _phase: Phase<S>) -> Option<&'static str> {
+        None
+    }
+
     /// The condition of an event.
     fn watch(&mut self) -> Option<&mut Watch<S>> {
         None
@@ -58,7 +74,7 @@ pub trait Happening<S: Real, M: Mechanism> {
         S::zero()
     }
 
-    /// Calls the handler or the controller.
+    /// Calls the handler or the controller, where it is due.
     ///
     /// # Errors
     /// That of the closure.
@@ -116,6 +132,11 @@ where
     R: IntoFlow,
     R::Failure: Into<Fault>,
 {
+    fn due(&mut self, _time: S, phase: Phase<S>) -> Option<&'static str> {
+        let root = self.watch.root()?;
+        (phase == Phase::Handlers(root)).then(|| self.watch.name())
+    }
+
     fn watch(&mut self) -> Option<&mut Watch<S>> {
         Some(&mut self.watch)
     }
@@ -145,6 +166,11 @@ where
     R: IntoFlow,
     R::Failure: Into<Fault>,
 {
+    fn due(&mut self, time: S, phase: Phase<S>) -> Option<&'static str> {
+        let is_due = phase == Phase::Controllers && self.period.is_due(time);
+        is_due.then_some("")
+    }
+
     fn period(&mut self) -> Option<&mut Period<S>> {
         Some(&mut self.period)
     }
