@@ -1,10 +1,10 @@
 //! Efforts, impulses and modes of interactions.
 
-use super::Dynamics;
+use super::{Dynamics, Solvable};
 use crate::error::Fault;
-use crate::formulation::{Formulation, add};
+use crate::formulation::add;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
+use crate::measure::load::AppliedForces as _;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::scene::Scene;
@@ -12,13 +12,9 @@ use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::Task;
 use crate::state::vector::{Array, MovingState, Vector as _};
 
-impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
+impl<P, S: Real, M: Mechanism, C: Coordinates<M>> Dynamics<P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M, Coordinates = C>,
 {
     /// The interactions, with their statuses.
     pub(crate) fn tracked(&self) -> &[Tracked<S, M>] {
@@ -30,7 +26,7 @@ where
     /// # Errors
     /// [`Fault::InteractionSetting`].
     pub(crate) fn renew_limits(&mut self) -> Result<(), Fault> {
-        if A::INTERACTS {
+        if P::Forces::INTERACTS {
             let parameters = *self.parameters();
             self.forces.renew(&parameters);
             for tracked in self.tracked() {
@@ -42,7 +38,7 @@ where
 
     /// Leaves the efforts of interactions in their statuses.
     pub(crate) fn efforts(&self, time: S, state: &C::State<S>) -> Result<(), Fault> {
-        if !A::INTERACTS {
+        if !P::Forces::INTERACTS {
             return Ok(());
         }
         let (mut rates, mut multipliers) = (C::State::zeros(), Array::zeros());
@@ -62,7 +58,7 @@ where
         state: &C::State<S>,
         bodies: &M::State<S>,
     ) -> Option<S> {
-        if !A::INTERACTS || !self.tracked().iter().any(Tracked::slips_by_load) {
+        if !P::Forces::INTERACTS || !self.tracked().iter().any(Tracked::slips_by_load) {
             return Some(S::zero());
         }
         self.efforts(time, state).ok()?;
@@ -85,7 +81,7 @@ where
     /// is.
     pub(crate) fn held(&self, time: S, state: &C::State<S>) -> Result<Option<C::State<S>>, Fault> {
         let holds = |tracked: &Tracked<S, M>| tracked.mode().holds();
-        if !A::INTERACTS || !self.tracked().iter().any(holds) {
+        if !P::Forces::INTERACTS || !self.tracked().iter().any(holds) {
             return Ok(None);
         }
         let mut faster = C::Velocities::<S>::zeros();

@@ -10,16 +10,16 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::described::Beside;
 use crate::nonsmooth::interaction::Interaction;
-use crate::run::simulation::{Simulation, Solving};
+use crate::run::simulation::Simulation;
 
-impl<'a, S, M, F, I, A, C, H> Simulation<'a, Problem<S, M, F, A, C>, I, H>
+impl<'a, M, F, S, C, A, I, H> Simulation<'a, Problem<M, F, S, C, A>, I, H>
 where
-    S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    I: Method<S>,
-    A: AppliedForces<S, M>,
+    S: Real,
     C: Coordinates<M>,
+    A: AppliedForces<S, M>,
+    I: Method<S>,
 {
     /// Adds limits, dry friction, brakes and clutches, which handlers and observers call by
     /// [handles](Interaction::handles). See [`guide::contact`](mod@crate::guide::contact).
@@ -66,7 +66,7 @@ where
     pub fn interactions<const K: usize, const ALL: usize>(
         self,
         interactions: [Interaction<S, M>; K],
-    ) -> Solving<'a, S, M, F, I, Interacting<S, M, A, ALL>, C, H>
+    ) -> Simulation<'a, Problem<M, F, S, C, Interacting<S, M, A, ALL>>, I, H>
     where
         M: Beside<K, ALL>,
     {
@@ -103,7 +103,7 @@ where
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn without_limits(self) -> Solving<'a, S, M, F, I, Unlimited<A>, C, H> {
+    pub fn without_limits(self) -> Simulation<'a, Problem<M, F, S, C, Unlimited<A>>, I, H> {
         self.exchange(Unlimited)
     }
 }

@@ -25,9 +25,10 @@ use core::fmt::{self, Debug};
 pub use adjoint::{Adjoint, Gradient, Instant};
 pub use differentiable::Differentiable;
 pub use least_squares::{Fit, FitError, Squares, fit};
+use simulation::Lifted;
 pub use simulation::SensitivitySimulation;
 
-use crate::dynamics::{Dynamics, parameters};
+use crate::dynamics::{Dynamics, Problem, parameters};
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::formulation::Formulation;
@@ -192,13 +193,13 @@ impl<M: Mechanism, const K: usize, S: Real> Sensitivities<M, K, S> {
         self,
         formulation: F,
         integrator: I,
-    ) -> SensitivitySimulation<M, F::Carrying, I::Carrying, K, S>
+    ) -> SensitivitySimulation<Lifted<M, F::Carrying, S, K>, I::Carrying>
     where
         F: Differentiable<S, K, Carrying: Formulation<Forward<S, K>>>,
         I: Differentiable<S, K, Carrying: Method<Forward<S, K>>>,
     {
         let integrator = integrator.scaled(&self.known_scales());
-        SensitivitySimulation::new(self, formulation.carrying(), integrator)
+        SensitivitySimulation::new(&self, formulation.carrying(), integrator)
     }
 
     /// The equations of motion with a formulation, for evaluations and for steps of one's own.
@@ -208,7 +209,7 @@ impl<M: Mechanism, const K: usize, S: Real> Sensitivities<M, K, S> {
     pub fn dynamics<F>(
         &self,
         formulation: F,
-    ) -> Result<Dynamics<Forward<S, K>, M, F::Carrying>, Fault>
+    ) -> Result<Dynamics<Problem<M, F::Carrying, Forward<S, K>>>, Fault>
     where
         F: Differentiable<S, K, Carrying: Formulation<Forward<S, K>>>,
     {
