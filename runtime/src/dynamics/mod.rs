@@ -38,8 +38,11 @@ use core::fmt;
 use evaluate::VANISHED;
 pub(crate) use evaluate::{Evaluator, vanishes};
 pub(crate) use faults::singular;
-pub use problem::{Bodies, Inputs, Posed, Problem, Solvable, State, UnderWay};
-pub(crate) use problem::{Carrying, WithForces};
+pub(crate) use problem::Carrying;
+pub use problem::{
+    Bodies, Posed, Problem, Solvable, State, UnderWay, WithCoordinates, WithForces,
+    WithInteractions, WithLaw,
+};
 
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::compliance::compliances;
@@ -62,9 +65,9 @@ use crate::state::vector::{Array as _, StateParts, Vector};
 
 /// A mechanism with a formulation, prepared: what an integrator moves.
 ///
-/// States are those of the [`Problem`] ([`State`]): in absolute coordinates the state of the bodies,
-/// in relative ones [`JointCoordinates::JointState`]. [`Dynamics::bodies`] says how the bodies stand
-/// and move in a state, and everything that can be read of a mechanism is read there.
+/// States are those of the [`Problem`] ([`State`]): in absolute coordinates the state of the
+/// bodies, in relative ones [`JointCoordinates::JointState`]. [`Dynamics::bodies`] says how the
+/// bodies stand and move in a state, and everything that can be read of a mechanism is read there.
 ///
 /// ```
 /// use holonom::prelude::*;
@@ -208,17 +211,13 @@ impl<P: Solvable> fmt::Debug for Dynamics<P> {
     }
 }
 
-impl<M, F, S, C, A> Dynamics<Problem<M, F, S, C, A>>
+impl<P, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<P>
 where
-    M: Mechanism,
-    F: Formulation<S>,
-    S: Real,
-    C: Coordinates<M>,
-    A: AppliedForces<S, M>,
+    P: Solvable<Number = S, Mechanism = M, Formulation = F, Forces = A, Coordinates = C>,
 {
     /// The same with forces from a closure, which is shown the state of the bodies.
     #[must_use]
-    pub fn forces<G>(self, law: G) -> Dynamics<Problem<M, F, S, C, ForceLaw<G>>>
+    pub fn forces<G>(self, law: G) -> Dynamics<WithForces<P, ForceLaw<G>>>
     where
         G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
     {
@@ -227,7 +226,7 @@ where
 
     /// The same in other coordinates.
     #[must_use]
-    pub fn coordinates<C2: Coordinates<M>>(self) -> Dynamics<Problem<M, F, S, C2, A>> {
+    pub fn coordinates<C2: Coordinates<M>>(self) -> Dynamics<WithCoordinates<P, C2>> {
         Dynamics {
             own: C2::own(&self.parameters, &self.stabilisation, &self.absolute),
             parameters: self.parameters,
@@ -245,7 +244,7 @@ where
 
     /// The same in relative (joint) coordinates.
     #[must_use]
-    pub fn joint_coordinates(self) -> Dynamics<Problem<M, F, S, Relative, A>>
+    pub fn joint_coordinates(self) -> Dynamics<WithCoordinates<P, Relative>>
     where
         M: JointCoordinates,
     {
@@ -254,22 +253,17 @@ where
 
     /// The same in absolute coordinates.
     #[must_use]
-    pub fn absolute_coordinates(self) -> Dynamics<Problem<M, F, S, Absolute, A>> {
+    pub fn absolute_coordinates(self) -> Dynamics<WithCoordinates<P, Absolute>> {
         self.coordinates()
     }
 
     /// The same in absolute coordinates, with other rates of Euler parameters.
     #[doc(hidden)]
     #[must_use]
-    pub fn orientation<O: Orientation>(self) -> Dynamics<Problem<M, F, S, Absolute<O>, A>> {
+    pub fn orientation<O: Orientation>(self) -> Dynamics<WithCoordinates<P, Absolute<O>>> {
         self.coordinates()
     }
-}
 
-impl<P, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<P>
-where
-    P: Solvable<Number = S, Mechanism = M, Formulation = F, Forces = A, Coordinates = C>,
-{
     pub(crate) fn with_forces<A2: AppliedForces<S, M>>(
         self,
         forces: A2,

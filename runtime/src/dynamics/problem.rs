@@ -4,10 +4,10 @@ use core::marker::PhantomData;
 
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
-use crate::measure::interacting::Heeding;
-use crate::measure::load::{AppliedForces, NoForces};
+use crate::measure::interacting::{Heeding, Interacting};
+use crate::measure::load::{AppliedForces, ForceLaw, NoForces};
 use crate::mechanism::coordinates::Coordinates;
-use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::kernels::{Mechanism, StateOf};
 
 /// A mechanism `M` with a formulation `F`, over numbers `S`, in coordinates `C`, and with forces
 /// `A` beside those of its description.
@@ -46,7 +46,10 @@ use crate::mechanism::kernels::Mechanism;
 /// # Ok::<(), Fault>(())
 /// ```
 ///
-/// A function over all of them asks for a [`Solvable`]; one that runs or steps asks its method for
+/// [`WithCoordinates`], [`WithForces`] and [`WithInteractions`] say what was changed, as in
+/// `Stepper<WithInteractions<Swing, 1>, Rk4>`.
+///
+/// A function over all problems asks for a [`Solvable`]. One that runs or steps asks its method for
 /// [`Runs`](crate::Runs), [`Leads`](crate::run::Leads) or [`Steps`](crate::run::Steps) of it.
 pub struct Problem<M: Mechanism, F, S = f64, C = <M as Mechanism>::Coordinates, A = NoForces>(
     PhantomData<Parts<M, F, S, C, A>>,
@@ -109,18 +112,38 @@ pub type State<P> = <<P as Posed>::Coordinates as Coordinates<<P as Posed>::Mech
 >;
 
 /// The state of the bodies, which everything is read of.
-pub type Bodies<P> = <<P as Posed>::Mechanism as Mechanism>::State<<P as Posed>::Number>;
+pub type Bodies<P> = StateOf<<P as Posed>::Mechanism, <P as Posed>::Number>;
 
-/// The inputs of the mechanism.
-pub type Inputs<P> = <<P as Posed>::Mechanism as Mechanism>::Inputs<<P as Posed>::Number>;
+/// The problem in other coordinates.
+pub type WithCoordinates<P, C> = Problem<
+    <P as Posed>::Mechanism,
+    <P as Posed>::Formulation,
+    <P as Posed>::Number,
+    C,
+    <P as Posed>::Forces,
+>;
 
 /// The problem with other forces.
-pub(crate) type WithForces<P, A> = Problem<
+pub type WithForces<P, A> = Problem<
     <P as Posed>::Mechanism,
     <P as Posed>::Formulation,
     <P as Posed>::Number,
     <P as Posed>::Coordinates,
     A,
+>;
+
+/// The problem with forces of a closure `G`.
+pub type WithLaw<P, G> = WithForces<
+    P,
+    <<P as Posed>::Forces as AppliedForces<<P as Posed>::Number, <P as Posed>::Mechanism>>::With<
+        ForceLaw<G>,
+    >,
+>;
+
+/// The problem with `N` interactions, the limits of the description among them.
+pub type WithInteractions<P, const N: usize> = WithForces<
+    P,
+    Interacting<<P as Posed>::Number, <P as Posed>::Mechanism, <P as Posed>::Forces, N>,
 >;
 
 /// The problem with its forces under way, which have the limits of the description and the

@@ -5,7 +5,7 @@ use core::fmt::{self, Debug};
 
 use super::equations::{LaneEquations, StateOfAll};
 use super::exchange::{put_state, state_of};
-use crate::dynamics::{Bodies, Dynamics, Inputs, Problem, Solvable, State};
+use crate::dynamics::{Bodies, Dynamics, Problem, Solvable, State, WithCoordinates};
 use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
 use crate::integrate::Scheme;
@@ -14,11 +14,11 @@ use crate::math::scalar::Real;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
-use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::kernels::{InputsOf, Mechanism};
 use crate::state::vector::MovingState;
 
 /// Several mechanisms of one type, each with its own parameters, inputs and start: a step moves
-/// all of them at once, a lane of [`Lanes`] for each.
+/// all of them at once, a lane of [`Lanes`](super::Lanes) for each.
 ///
 /// The numbers are those of a [`Stepper`](crate::Stepper) for each mechanism, bit for bit on one
 /// machine. The time is common to all. A step allocates nothing and does not panic.
@@ -27,7 +27,8 @@ use crate::state::vector::MovingState;
 /// others go on. [`Ensemble::stopped`] has the time of its last good state, the fault that a
 /// [`Stepper`](crate::Stepper) gives, and the state itself.
 ///
-/// `P` is the [`Problem`] that is solved in each lane, `K` the method. Any explicit scheme will do ([`Rk4`](crate::Rk4), [`Heun`](crate::Heun),
+/// `P` is the [`Problem`] that is solved in each lane, `K` the method. Any explicit scheme will do
+/// ([`Rk4`](crate::Rk4), [`Heun`](crate::Heun),
 /// [`DormandPrince5`](crate::integrate::DormandPrince5)), and any formulation without an iteration:
 /// an [`AugmentedLagrangian`](crate::AugmentedLagrangian) does not compile.
 ///
@@ -178,6 +179,35 @@ impl<P: Solvable, K: Scheme<P::Number>, const L: usize> Ensemble<P, K, L> {
         self
     }
 
+    /// Solves the equations of motion in other coordinates, from the described states:
+    /// `.coordinates::<Relative>()`.
+    #[must_use]
+    pub fn coordinates<C>(self) -> Ensemble<WithCoordinates<P, C>, K, L>
+    where
+        C: Coordinates<P::Mechanism>,
+    {
+        let dynamics = self.dynamics.map(Dynamics::coordinates);
+        Ensemble {
+            passes_limits: self.passes_limits,
+            ..Ensemble::described(dynamics, self.scheme, self.clock)
+        }
+    }
+
+    /// Solves the equations of motion in relative (joint) coordinates, from the described states.
+    #[must_use]
+    pub fn joint_coordinates(self) -> Ensemble<WithCoordinates<P, Relative>, K, L>
+    where
+        P::Mechanism: JointCoordinates,
+    {
+        self.coordinates()
+    }
+
+    /// Solves the equations of motion in absolute coordinates, from the described states.
+    #[must_use]
+    pub fn absolute_coordinates(self) -> Ensemble<WithCoordinates<P, Absolute>, K, L> {
+        self.coordinates()
+    }
+
     /// Starts every lane from a state of its bodies, at the time that was reached. A start that is
     /// refused ([`Dynamics::state_of`]) stops its lane; one that had stopped goes on.
     pub fn start(&mut self, bodies: &[Bodies<P>; L]) {
@@ -203,7 +233,10 @@ impl<P: Solvable, K: Scheme<P::Number>, const L: usize> Ensemble<P, K, L> {
     ///
     /// # Errors
     /// An input that is not finite. Its lane and those behind it then keep the former ones.
-    pub fn set_inputs(&mut self, inputs: &[Inputs<P>; L]) -> Result<(), Fault> {
+    pub fn set_inputs(
+        &mut self,
+        inputs: &[InputsOf<P::Mechanism, P::Number>; L],
+    ) -> Result<(), Fault> {
         let mut lanes = self.dynamics.iter_mut().zip(inputs);
         let outcome = lanes.try_for_each(|(dynamics, inputs)| dynamics.set_inputs(inputs));
         for (lane, stopped) in self.stopped.iter().enumerate() {
@@ -258,41 +291,6 @@ impl<P: Solvable, K: Scheme<P::Number>, const L: usize> Ensemble<P, K, L> {
     #[must_use]
     pub fn dynamics(&self) -> &[Dynamics<P>; L] {
         &self.dynamics
-    }
-}
-
-impl<M, F, S, C, K, const L: usize> Ensemble<Problem<M, F, S, C>, K, L>
-where
-    M: Mechanism,
-    F: Formulation<S>,
-    S: Real,
-    C: Coordinates<M>,
-    K: Scheme<S>,
-{
-    /// Solves the equations of motion in other coordinates, from the described states:
-    /// `.coordinates::<Relative>()`.
-    #[must_use]
-    pub fn coordinates<C2: Coordinates<M>>(self) -> Ensemble<Problem<M, F, S, C2>, K, L> {
-        let dynamics = self.dynamics.map(Dynamics::coordinates);
-        Ensemble {
-            passes_limits: self.passes_limits,
-            ..Ensemble::described(dynamics, self.scheme, self.clock)
-        }
-    }
-
-    /// Solves the equations of motion in relative (joint) coordinates, from the described states.
-    #[must_use]
-    pub fn joint_coordinates(self) -> Ensemble<Problem<M, F, S, Relative>, K, L>
-    where
-        M: JointCoordinates,
-    {
-        self.coordinates()
-    }
-
-    /// Solves the equations of motion in absolute coordinates, from the described states.
-    #[must_use]
-    pub fn absolute_coordinates(self) -> Ensemble<Problem<M, F, S, Absolute>, K, L> {
-        self.coordinates()
     }
 }
 

@@ -4,11 +4,12 @@ use super::ensemble::Ensemble;
 use super::equations::{LaneEquations, StateOfAll};
 use super::exchange::{put_state, state_of};
 use super::number::Lanes;
-use crate::dynamics::{Dynamics, Inputs, Solvable, State};
+use crate::dynamics::{Dynamics, Solvable, State};
 use crate::error::{Fault, SimulationError, Unheeding};
 use crate::integrate::{OneStep, Slopes, StepStart, System};
 use crate::math::scalar::{Real, Scalar as _};
 use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::InputsOf;
 use crate::mechanism::turns;
 use crate::nonsmooth::described::refuse_limits;
 use crate::run::stepper::end_of_step;
@@ -131,7 +132,11 @@ where
     ///
     /// # Errors
     /// As [`Ensemble::step`] and [`Ensemble::set_inputs`].
-    pub fn step_with(&mut self, inputs: &[Inputs<P>; L], dt: T) -> Result<(), Fault> {
+    pub fn step_with(
+        &mut self,
+        inputs: &[InputsOf<P::Mechanism, P::Number>; L],
+        dt: T,
+    ) -> Result<(), Fault> {
         self.set_inputs(inputs)?;
         self.step(dt)
     }

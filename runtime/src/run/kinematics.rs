@@ -9,7 +9,7 @@ use core::ops::{ControlFlow, RangeInclusive};
 
 use self::motion::Motion;
 use crate::constraints::projection::Projection;
-use crate::dynamics::{Bodies, Dynamics, Posed, Problem, Solvable};
+use crate::dynamics::{Bodies, Dynamics, Posed, Problem, Solvable, WithForces};
 use crate::error::{Fault, LeavesOut, SimulationError};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
@@ -135,7 +135,7 @@ impl<'a, M: Mechanism, F: Formulation<S>, S: Real> KinematicAnalysis<'a, Problem
     }
 }
 
-impl<P: Posed> KinematicAnalysis<'_, P> {
+impl<'a, P: Posed> KinematicAnalysis<'a, P> {
     /// Looks for the first pose near this state, instead of the described one.
     #[must_use]
     pub fn initial_state(mut self, state: Bodies<P>) -> Self {
@@ -156,16 +156,14 @@ impl<P: Posed> KinematicAnalysis<'_, P> {
         self.heeds_limits = false;
         self
     }
-}
 
-impl<'a, M: Mechanism, F, S: Real, C, A> KinematicAnalysis<'a, Problem<M, F, S, C, A>> {
     /// Applies forces as a function of time and state,
     /// `|time, state, loads| loads.force(body, ...)`. The motion does not depend on them, reactions
     /// and driving efforts do.
     #[must_use]
-    pub fn forces<G>(self, law: G) -> KinematicAnalysis<'a, Problem<M, F, S, C, ForceLaw<G>>>
+    pub fn forces<G>(self, law: G) -> KinematicAnalysis<'a, WithForces<P, ForceLaw<G>>>
     where
-        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+        G: Fn(P::Number, &Bodies<P>, &mut Loads<'_, P::Number, P::Mechanism>),
     {
         KinematicAnalysis {
             mechanism: self.mechanism,

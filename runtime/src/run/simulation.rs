@@ -3,7 +3,7 @@
 use core::fmt::{self, Debug};
 
 use crate::constraints::projection::Projection;
-use crate::dynamics::{Bodies, Posed, Problem, Solvable};
+use crate::dynamics::{Bodies, Posed, Problem, Solvable, WithCoordinates, WithLaw};
 use crate::formulation::Formulation;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
@@ -237,21 +237,14 @@ where
         self.setup.is_verified = true;
         self
     }
-}
 
-impl<'a, M, F, S, C, A, I, H> Simulation<'a, Problem<M, F, S, C, A>, I, H>
-where
-    M: Mechanism,
-    F: Formulation<S>,
-    S: Real,
-    C: Coordinates<M>,
-    A: AppliedForces<S, M>,
-    I: Method<S>,
-{
-    pub(super) fn exchange<A2, C2>(
+    pub(super) fn exchange<Q>(
         self,
-        forces: impl FnOnce(A) -> A2,
-    ) -> Simulation<'a, Problem<M, F, S, C2, A2>, I, H> {
+        forces: impl FnOnce(P::Forces) -> Q::Forces,
+    ) -> Simulation<'a, Q, I, H>
+    where
+        Q: Posed<Mechanism = P::Mechanism, Formulation = P::Formulation, Number = P::Number>,
+    {
         let setup = self.setup;
         Simulation {
             setup: Setup {
@@ -282,19 +275,19 @@ where
     ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.
     #[must_use]
-    pub fn forces<G>(
-        self,
-        law: G,
-    ) -> Simulation<'a, Problem<M, F, S, C, A::With<ForceLaw<G>>>, I, H>
+    pub fn forces<G>(self, law: G) -> Simulation<'a, WithLaw<P, G>, I, H>
     where
-        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+        G: Fn(P::Number, &Bodies<P>, &mut Loads<'_, P::Number, P::Mechanism>),
     {
         self.exchange(|forces| forces.with(ForceLaw(law)))
     }
 
     /// Solves the equations of motion in other coordinates: `.coordinates::<Relative>()`.
     #[must_use]
-    pub fn coordinates<C2: Coordinates<M>>(self) -> Simulation<'a, Problem<M, F, S, C2, A>, I, H> {
+    pub fn coordinates<C>(self) -> Simulation<'a, WithCoordinates<P, C>, I, H>
+    where
+        C: Coordinates<P::Mechanism>,
+    {
         self.exchange(|forces| forces)
     }
 
@@ -309,9 +302,9 @@ where
     /// joints that close loops) and monitor are the same. The monitor looks at the joints that
     /// close loops alone.
     #[must_use]
-    pub fn joint_coordinates(self) -> Simulation<'a, Problem<M, F, S, Relative, A>, I, H>
+    pub fn joint_coordinates(self) -> Simulation<'a, WithCoordinates<P, Relative>, I, H>
     where
-        M: JointCoordinates,
+        P::Mechanism: JointCoordinates,
     {
         self.coordinates()
     }
@@ -319,7 +312,7 @@ where
     /// Solves the equations of motion in absolute coordinates: of every body position, Euler
     /// parameters and velocities.
     #[must_use]
-    pub fn absolute_coordinates(self) -> Simulation<'a, Problem<M, F, S, Absolute, A>, I, H> {
+    pub fn absolute_coordinates(self) -> Simulation<'a, WithCoordinates<P, Absolute>, I, H> {
         self.coordinates()
     }
 
@@ -328,7 +321,7 @@ where
     #[must_use]
     pub fn orientation<O: Orientation>(
         self,
-    ) -> Simulation<'a, Problem<M, F, S, Absolute<O>, A>, I, H> {
+    ) -> Simulation<'a, WithCoordinates<P, Absolute<O>>, I, H> {
         self.coordinates()
     }
 }

@@ -4,7 +4,8 @@ use core::fmt::{self, Debug};
 
 use crate::constraints::projection::Projection;
 use crate::dynamics::{
-    Bodies, Dynamics, Inputs, Iterations, Posed, Problem, Solvable, State, UnderWay,
+    Bodies, Dynamics, Iterations, Posed, Problem, Solvable, State, UnderWay, WithCoordinates,
+    WithForces, WithInteractions, WithLaw,
 };
 use crate::error::Fault;
 use crate::error::setting::positive;
@@ -17,7 +18,7 @@ use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::measure::view::View;
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
-use crate::mechanism::kernels::{Mechanism, Orientation};
+use crate::mechanism::kernels::{InputsOf, Mechanism, Orientation};
 use crate::nonsmooth::described::Beside;
 use crate::nonsmooth::interaction::Interaction;
 
@@ -121,19 +122,11 @@ where
     }
 }
 
-impl<M, F, S, C, A, K> Stepper<Problem<M, F, S, C, A>, K>
-where
-    M: Mechanism,
-    F: Formulation<S>,
-    S: Real,
-    C: Coordinates<M>,
-    A: AppliedForces<S, M>,
-    K: Scheme<S>,
-{
-    fn exchange<P: Solvable<Number = S>>(
+impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
+    fn exchange<Q: Solvable<Number = P::Number>>(
         self,
-        exchange: impl FnOnce(Dynamics<UnderWay<Problem<M, F, S, C, A>>>) -> Dynamics<UnderWay<P>>,
-    ) -> Stepper<P, K> {
+        exchange: impl FnOnce(Dynamics<UnderWay<P>>) -> Dynamics<UnderWay<Q>>,
+    ) -> Stepper<Q, K> {
         Stepper {
             dynamics: exchange(self.dynamics),
             scheme: self.scheme,
@@ -144,20 +137,21 @@ where
     }
 
     /// With other forces, or other interactions.
-    fn exchange_forces<A2: AppliedForces<S, M>>(
+    fn exchange_forces<A: AppliedForces<P::Number, P::Mechanism>>(
         self,
-        exchange: impl FnOnce(A) -> A2,
-    ) -> Stepper<Problem<M, F, S, C, A2>, K> {
+        exchange: impl FnOnce(P::Forces) -> A,
+    ) -> Stepper<WithForces<P, A>, K> {
         let parameters = *self.dynamics.parameters();
-        let renew = |old: Heeding<S, M, A>| Heeding::new(exchange(old.into_forces()), &parameters);
-        self.exchange(|dynamics| dynamics.exchange_forces(renew))
+        self.exchange(|dynamics| {
+            dynamics.exchange_forces(|old| Heeding::new(exchange(old.into_forces()), &parameters))
+        })
     }
 
     /// Applies forces as a function of time and state of the bodies, see [`Loads`].
     #[must_use]
-    pub fn forces<G>(self, law: G) -> Stepper<Problem<M, F, S, C, A::With<ForceLaw<G>>>, K>
+    pub fn forces<G>(self, law: G) -> Stepper<WithLaw<P, G>, K>
     where
-        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+        G: Fn(P::Number, &Bodies<P>, &mut Loads<'_, P::Number, P::Mechanism>),
     {
         self.exchange_forces(|forces| forces.with(ForceLaw(law)))
     }
@@ -190,52 +184,58 @@ where
     #[must_use]
     pub fn interactions<const N: usize, const ALL: usize>(
         self,
-        interactions: [Interaction<S, M>; N],
-    ) -> Stepper<Problem<M, F, S, C, Interacting<S, M, A, ALL>>, K>
+        interactions: [Interaction<P::Number, P::Mechanism>; N],
+    ) -> Stepper<WithInteractions<P, ALL>, K>
     where
-        M: Beside<N, ALL>,
+        P::Mechanism: Beside<N, ALL>,
     {
-        const { assert!(!A::INTERACTS, "`interactions` are said once, in one list") };
-        self.exchange_forces(|forces| Interacting::new(forces, M::beside(interactions)))
+        const {
+            assert!(
+                !P::Forces::INTERACTS,
+                "`interactions` are said once, in one list"
+            )
+        };
+        self.exchange_forces(|forces| Interacting::new(forces, P::Mechanism::beside(interactions)))
     }
 
     /// Passes the limits of the description as if there were none, see
     /// [`Simulation::without_limits`](crate::Simulation::without_limits).
     #[must_use]
-    pub fn without_limits(self) -> Stepper<Problem<M, F, S, C, Unlimited<A>>, K> {
+    pub fn without_limits(self) -> Stepper<WithForces<P, Unlimited<P::Forces>>, K> {
         self.exchange_forces(Unlimited)
     }
 
     /// Solves the equations of motion in other coordinates: `.coordinates::<Relative>()`.
     #[must_use]
-    pub fn coordinates<C2: Coordinates<M>>(self) -> Stepper<Problem<M, F, S, C2, A>, K> {
+    pub fn coordinates<C>(self) -> Stepper<WithCoordinates<P, C>, K>
+    where
+        C: Coordinates<P::Mechanism>,
+    {
         self.exchange(Dynamics::coordinates)
     }
 
     /// Solves the equations of motion in relative (joint) coordinates.
     #[must_use]
-    pub fn joint_coordinates(self) -> Stepper<Problem<M, F, S, Relative, A>, K>
+    pub fn joint_coordinates(self) -> Stepper<WithCoordinates<P, Relative>, K>
     where
-        M: JointCoordinates,
+        P::Mechanism: JointCoordinates,
     {
         self.coordinates()
     }
 
     /// Solves the equations of motion in absolute coordinates.
     #[must_use]
-    pub fn absolute_coordinates(self) -> Stepper<Problem<M, F, S, Absolute, A>, K> {
+    pub fn absolute_coordinates(self) -> Stepper<WithCoordinates<P, Absolute>, K> {
         self.coordinates()
     }
 
     /// Absolute coordinates with other rates of Euler parameters.
     #[doc(hidden)]
     #[must_use]
-    pub fn orientation<O: Orientation>(self) -> Stepper<Problem<M, F, S, Absolute<O>, A>, K> {
+    pub fn orientation<O: Orientation>(self) -> Stepper<WithCoordinates<P, Absolute<O>>, K> {
         self.coordinates()
     }
-}
 
-impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
     /// Begins at a time (s).
     #[must_use]
     pub fn starting_at(mut self, time: P::Number) -> Self {
@@ -273,7 +273,7 @@ impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
     /// # Errors
     /// An input that is not finite; the former ones then stay.
     #[inline]
-    pub fn set_inputs(&mut self, inputs: &Inputs<P>) -> Result<(), Fault> {
+    pub fn set_inputs(&mut self, inputs: &InputsOf<P::Mechanism, P::Number>) -> Result<(), Fault> {
         self.dynamics.set_inputs(inputs)
     }
 
@@ -432,7 +432,7 @@ impl<P: Solvable, K: Steps<P>> Stepper<P, K> {
     pub fn step_with(
         &mut self,
         state: &mut State<P>,
-        inputs: &Inputs<P>,
+        inputs: &InputsOf<P::Mechanism, P::Number>,
         dt: P::Number,
     ) -> Result<(), Fault> {
         self.set_inputs(inputs)?;

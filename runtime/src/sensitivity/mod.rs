@@ -52,6 +52,9 @@ pub struct Sensitivities<M: Mechanism, const K: usize, S: Real = f64> {
     scales: Option<[S; K]>,
 }
 
+/// The equations of motion along `K` directions.
+type Equations<M, F, S, const K: usize> = Dynamics<Problem<M, F, Forward<S, K>>>;
+
 copied!([M: Mechanism, const K: usize, S: Real] Sensitivities<M, K, S>);
 
 impl<M: Mechanism, const K: usize, S: Real> Debug for Sensitivities<M, K, S> {
@@ -206,10 +209,7 @@ impl<M: Mechanism, const K: usize, S: Real> Sensitivities<M, K, S> {
     ///
     /// # Errors
     /// A coefficient of the formulation that is not acceptable.
-    pub fn dynamics<F>(
-        &self,
-        formulation: F,
-    ) -> Result<Dynamics<Problem<M, F::Carrying, Forward<S, K>>>, Fault>
+    pub fn dynamics<F>(&self, formulation: F) -> Result<Equations<M, F::Carrying, S, K>, Fault>
     where
         F: Differentiable<S, K, Carrying: Formulation<Forward<S, K>>>,
     {

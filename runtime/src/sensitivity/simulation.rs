@@ -5,15 +5,15 @@ use core::ops::RangeInclusive;
 
 use super::Sensitivities;
 use super::start::check_derivatives;
-use crate::dynamics::{Bodies, Posed, Problem, Solvable};
+use crate::dynamics::{Bodies, Posed, Problem, Solvable, WithCoordinates, WithLaw};
 use crate::error::{Fault, SimulationError, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::Forward;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
 use crate::measure::interacting::Unlimited;
-use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
-use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
+use crate::measure::load::{Loads, NoForces};
+use crate::mechanism::coordinates::{Absolute, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::described::refuse_limits;
@@ -60,10 +60,10 @@ where
     S: Real,
 {
     pub(super) fn new(along: &Sensitivities<M, K, S>, formulation: F, integrator: I) -> Self {
-        let (parameters, start) = (along.parameters, along.start());
-        let simulation = Simulation::of_parameters(parameters, formulation, integrator);
+        let start = along.start();
+        let simulation = Simulation::of_parameters(along.parameters, formulation, integrator);
         Self {
-            parameters,
+            parameters: along.parameters,
             start,
             passes_limits: along.passes_limits,
             simulation: simulation.initial_state(start).without_limits(),
@@ -85,23 +85,14 @@ impl<P: Solvable, I: Method<P::Number>> SensitivitySimulation<P, I> {
         self.simulation = self.simulation.unmonitored();
         self
     }
-}
 
-impl<M, F, S, C, A, I> SensitivitySimulation<Problem<M, F, S, C, A>, I>
-where
-    M: Mechanism,
-    F: Formulation<S>,
-    S: Real,
-    C: Coordinates<M>,
-    A: AppliedForces<S, M>,
-    I: Method<S>,
-{
-    fn exchange<P: Posed<Number = S, Mechanism = M>>(
+    fn exchange<Q>(
         self,
-        exchange: impl FnOnce(
-            Simulation<'static, Problem<M, F, S, C, A>, I>,
-        ) -> Simulation<'static, P, I>,
-    ) -> SensitivitySimulation<P, I> {
+        exchange: impl FnOnce(Simulation<'static, P, I>) -> Simulation<'static, Q, I>,
+    ) -> SensitivitySimulation<Q, I>
+    where
+        Q: Posed<Mechanism = P::Mechanism, Number = P::Number>,
+    {
         SensitivitySimulation {
             parameters: self.parameters,
             start: self.start,
@@ -113,28 +104,25 @@ where
     /// Applies forces as a function of time and state, over numbers that carry derivatives, see
     /// [`Simulation::forces`].
     #[must_use]
-    pub fn forces<G>(
-        self,
-        law: G,
-    ) -> SensitivitySimulation<Problem<M, F, S, C, A::With<ForceLaw<G>>>, I>
+    pub fn forces<G>(self, law: G) -> SensitivitySimulation<WithLaw<P, G>, I>
     where
-        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+        G: Fn(P::Number, &Bodies<P>, &mut Loads<'_, P::Number, P::Mechanism>),
     {
         self.exchange(|simulation| simulation.forces(law))
     }
 
     /// Solves the equations of motion in relative (joint) coordinates.
     #[must_use]
-    pub fn joint_coordinates(self) -> SensitivitySimulation<Problem<M, F, S, Relative, A>, I>
+    pub fn joint_coordinates(self) -> SensitivitySimulation<WithCoordinates<P, Relative>, I>
     where
-        M: JointCoordinates,
+        P::Mechanism: JointCoordinates,
     {
         self.exchange(Simulation::joint_coordinates)
     }
 
     /// Solves the equations of motion in absolute coordinates.
     #[must_use]
-    pub fn absolute_coordinates(self) -> SensitivitySimulation<Problem<M, F, S, Absolute, A>, I> {
+    pub fn absolute_coordinates(self) -> SensitivitySimulation<WithCoordinates<P, Absolute>, I> {
         self.exchange(Simulation::absolute_coordinates)
     }
 }
