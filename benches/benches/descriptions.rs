@@ -23,11 +23,11 @@ const STEP: f64 = 1e-3;
 
 fn both<M: JointCoordinates + Default>(criterion: &mut Criterion, name: &str) {
     let mechanism = M::default();
-    let bodies = Dynamics::<f64, M, _>::new(&mechanism, StandardLagrange);
+    let bodies = Dynamics::<Problem<M, _>>::new(&mechanism, StandardLagrange);
     let mut bodies = bodies
         .expect("the mechanism is sound")
         .absolute_coordinates();
-    let joints = Dynamics::<f64, M, _>::new(&mechanism, StandardLagrange);
+    let joints = Dynamics::<Problem<M, _>>::new(&mechanism, StandardLagrange);
     let mut joints = joints.expect("the mechanism is sound").joint_coordinates();
     let start = M::initial_state(bodies.constants());
     let joint_start = joints.initial_state().expect("it stands as described");

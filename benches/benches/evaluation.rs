@@ -8,7 +8,12 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use holonom::{Mechanism, StandardLagrange, dynamics::Dynamics, integrate::System, state::Vector};
+use holonom::{
+    Mechanism, StandardLagrange,
+    dynamics::{Dynamics, Problem},
+    integrate::System,
+    state::Vector,
+};
 use holonom_benches::baselines::{START, Schur, StaticElimination, StaticSchur, Textbook};
 use holonom_models::RodPendulum;
 use holonom_study::chapter15::{Method, Settings};
@@ -17,7 +22,7 @@ use holonom_study::run::integrate;
 /// States in the benches that evaluate.
 const STATES: usize = 256;
 
-fn generated() -> Dynamics<f64, RodPendulum, StandardLagrange> {
+fn generated() -> Dynamics<Problem<RodPendulum, StandardLagrange>> {
     Dynamics::new(&RodPendulum::default(), StandardLagrange)
         .expect("the data of the book are sound")
 }

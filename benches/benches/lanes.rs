@@ -110,7 +110,7 @@ fn step<T: Real, M: JointCoordinates + Default>(
     group: &mut BenchmarkGroup<'_, WallTime>,
     name: &str,
 ) {
-    let stepper = Stepper::<T, M, _, _>::new(&M::default(), StandardLagrange, Rk4);
+    let stepper = Stepper::<Problem<M, _, T>, _>::new(&M::default(), StandardLagrange, Rk4);
     let mut stepper = stepper.expect("the mechanism is sound").joint_coordinates();
     let start = stepper.initial_state().expect("it stands as described");
     group.throughput(Throughput::Elements(TIMES));
@@ -131,7 +131,7 @@ fn steps<T: Real, M: JointCoordinates + Default, const L: usize>(
     name: &str,
 ) {
     let mechanisms: [M; L] = from_fn(|_| M::default());
-    let start = Ensemble::<T, M, _, _, _, L>::new(&mechanisms, StandardLagrange, Rk4);
+    let start = Ensemble::<Problem<M, _, T>, _, L>::new(&mechanisms, StandardLagrange, Rk4);
     let start = start.expect("the mechanisms are sound").joint_coordinates();
     group.throughput(Throughput::Elements(TIMES * L as u64));
     group.bench_function(name, |bencher| {

@@ -47,7 +47,7 @@ where
     let kernel = |state: &M::JointState<f64>, rates: &mut M::JointState<f64>| {
         M::joint_rates_into::<f64, Plain>(&constants, &coefficients, 0.0, state, rates);
     };
-    let stepper = Stepper::<f64, M, _, _>::new(&mechanism, StandardLagrange, Rk4);
+    let stepper = Stepper::<Problem<M, _>, _>::new(&mechanism, StandardLagrange, Rk4);
     let mut stepper = stepper.expect("the mechanism is sound").joint_coordinates();
     let start = stepper.initial_state().expect("it stands as described");
 

@@ -5,8 +5,6 @@ use std::error::Error;
 #[cfg(feature = "large")]
 use holonom::RadauIIA;
 use holonom::Runs;
-use holonom::dynamics::Problem;
-use holonom::measure::NoForces;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom_film::Film;
@@ -188,7 +186,7 @@ fn accurate<M>(
 ) -> Outcome
 where
     M: JointCoordinates,
-    DormandPrince<f64>: Runs<f64, M, StandardLagrange, Relative>,
+    DormandPrince<f64>: Runs<Problem<M, StandardLagrange, f64, Relative>>,
 {
     let method = "standard Lagrange multipliers in joint coordinates, projected; \
          Dormand-Prince 5(4), tolerance 1e-8";
@@ -208,7 +206,7 @@ fn stiff<M>(
 ) -> Outcome
 where
     M: JointCoordinates,
-    RadauIIA<f64>: Runs<f64, M, StandardLagrange, Relative>,
+    RadauIIA<f64>: Runs<Problem<M, StandardLagrange, f64, Relative>>,
 {
     let method = "standard Lagrange multipliers in joint coordinates; \
          Radau IIA of order 5, because the springs are stiff, tolerance 1e-8";
@@ -226,7 +224,7 @@ fn through_singular<M>(
 ) -> Outcome
 where
     M: Mechanism,
-    DormandPrince<f64>: Runs<f64, M, Penalty<f64>, Absolute>,
+    DormandPrince<f64>: Runs<Problem<M, Penalty<f64>, f64, Absolute>>,
 {
     let method = "penalty in absolute coordinates, projected, because the mechanism passes \
          singular configurations; Dormand-Prince 5(4), tolerance 1e-8";
@@ -239,7 +237,7 @@ where
 
 fn recorded<M, F, I, C>(
     method: &'static str,
-    simulation: &Simulation<'_, Problem<f64, M, F, NoForces, C>, I>,
+    simulation: &Simulation<'_, Problem<M, F, f64, C>, I>,
     mut film: Film<M>,
     seconds: f64,
     read: impl Fn(&mut Film<M>, &Sample<'_, f64, M>),
@@ -248,7 +246,7 @@ where
     M: Mechanism,
     F: Formulation<f64>,
     C: Coordinates<M>,
-    I: Runs<f64, M, F, C>,
+    I: Runs<Problem<M, F, f64, C>>,
 {
     let frames = FRAMES.max((60.0 * seconds).min(5.0 * FRAMES));
     let report = simulation.run(0.0..=seconds, every(seconds / frames), |sample| {

@@ -1,6 +1,9 @@
 //! The pendulum written by hand against the generated one, and its operations.
 
-use holonom::{Mechanism, Scalar as _, StandardLagrange, StateParts as _, dynamics::Dynamics};
+use holonom::{
+    Mechanism, Scalar as _, StandardLagrange, StateParts as _,
+    dynamics::{Dynamics, Problem},
+};
 use holonom_benches::baselines::START;
 use holonom_benches::reference_kernel::{State, evaluate};
 use holonom_models::RodPendulum;
@@ -38,7 +41,8 @@ fn states() -> Vec<State<f64>> {
 #[test]
 fn it_computes_what_the_generated_pendulum_does() {
     let dynamics =
-        Dynamics::<f64, RodPendulum, _>::new(&RodPendulum::default(), StandardLagrange).unwrap();
+        Dynamics::<Problem<RodPendulum, _>>::new(&RodPendulum::default(), StandardLagrange)
+            .unwrap();
     for x in states() {
         let mut state = RodPendulum::initial_state(dynamics.constants());
         state

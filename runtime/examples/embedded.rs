@@ -33,7 +33,7 @@ fn main() -> Result<(), Fault> {
     let mut tilted = cart_pole.described_state::<f32>()?;
     cart_pole.set_angle(&mut tilted, handles.pin, 0.2)?;
     // All that a loop needs: two values, of sizes that are known when the program is compiled.
-    let mut stepper = Stepper::<f32, _, _, _>::new(&cart_pole, StandardLagrange, Rk4)?;
+    let mut stepper = Stepper::<Problem<_, _, f32>, _>::new(&cart_pole, StandardLagrange, Rk4)?;
     let mut state = stepper.state_of(&tilted)?;
     let sizes = [size_of_val(&stepper), size_of_val(&state)];
     println!("{sizes:?} bytes");

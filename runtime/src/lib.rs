@@ -225,6 +225,7 @@ pub use state::vector::StateParts;
 pub mod prelude {
     pub use core::ops::ControlFlow;
 
+    pub use crate::dynamics::Problem;
     pub use crate::forces::*;
     pub use crate::independent::{IndependentCoordinates, IndependentExt, Motion};
     pub use crate::joints::*;

@@ -4,6 +4,7 @@
 
 use holonom::{
     Formulation, JointCoordinates, Real, Runs,
+    dynamics::Problem,
     mechanism::{Absolute, Relative},
 };
 
@@ -12,7 +13,8 @@ use holonom::{
 pub const IS_EXHAUSTIVE: bool = cfg!(feature = "exhaustive");
 
 /// Methods that run a mechanism by a formulation in both coordinates.
-pub trait RunsBoth<M, F, S = f64>: Runs<S, M, F, Absolute> + Runs<S, M, F, Relative>
+pub trait RunsBoth<M, F, S = f64>:
+    Runs<Problem<M, F, S, Absolute>> + Runs<Problem<M, F, S, Relative>>
 where
     M: JointCoordinates,
     F: Formulation<S>,
@@ -22,7 +24,7 @@ where
 
 impl<I, M, F, S> RunsBoth<M, F, S> for I
 where
-    I: Runs<S, M, F, Absolute> + Runs<S, M, F, Relative>,
+    I: Runs<Problem<M, F, S, Absolute>> + Runs<Problem<M, F, S, Relative>>,
     M: JointCoordinates,
     F: Formulation<S>,
     S: Real,

@@ -6,7 +6,6 @@
 use core::array::from_fn;
 
 use holonom::lanes::{Ensemble, LaneEquations, Lanes};
-use holonom::measure::NoForces;
 use holonom::mechanism::{Absolute, Coordinates, Relative, Terms};
 use holonom::prelude::*;
 use holonom::run::Steps;
@@ -96,16 +95,16 @@ fn compared<T, M, F, K, C, const L: usize>(
     starts: &[M::State<T>; L],
     inputs: impl Fn(usize, usize) -> M::Inputs<T>,
     (steps, dt): (usize, f64),
-) -> Ensemble<T, M, F, K, C, L>
+) -> Ensemble<Problem<M, F, T, C>, K, L>
 where
     T: Real,
     M: Mechanism,
     F: Formulation<T>,
     F::Terms: Terms,
     C: Coordinates<M>,
-    K: Steps<T, M, F, C>
-        + OneStep<T, Dynamics<T, M, F, NoForces, C>>
-        + OneStep<Lanes<T, L>, LaneEquations<T, M, C, F::Terms, L>>,
+    K: Steps<Problem<M, F, T, C>>
+        + OneStep<T, Dynamics<Problem<M, F, T, C>>>
+        + OneStep<Lanes<T, L>, LaneEquations<Problem<M, F, T, C>, L>>,
 {
     let dt = T::constant(dt);
     let ensemble = Ensemble::new(mechanisms, formulation, scheme).expect("sound mechanisms");
@@ -311,7 +310,7 @@ fn counted_turns_agree() {
 fn settings_are_refused_and_starts_stop_their_lane() {
     let mut arms = arms::<4>();
     let mut ensemble =
-        Ensemble::<f64, _, _, _, _, 4>::new(&arms, StandardLagrange, Rk4).expect("sound");
+        Ensemble::<Problem<_, _>, _, 4>::new(&arms, StandardLagrange, Rk4).expect("sound");
     assert!(matches!(ensemble.step(-1.0), Err(Fault::Setting { .. })));
     let mut starts = thrown::<f64, 4>(&arms);
     let handle = Arm::HANDLES.arm;

@@ -1,7 +1,6 @@
 //! What stands still: no warning, and every method converges. Relative measures
 //! have a floor by round-off of what they are made of.
 
-use holonom::dynamics::Problem;
 use holonom::forces::SpringDamper;
 use holonom::joints::{PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
@@ -57,7 +56,7 @@ where
     I: RunsBoth<M, F, S>,
 {
     let end = S::constant(2.0);
-    let simulation = || Simulation::<Problem<S, M, _>, _>::new(mechanism, formulation, *integrator);
+    let simulation = || Simulation::<Problem<M, _, S>, _>::new(mechanism, formulation, *integrator);
     let run = [
         simulation()
             .absolute_coordinates()

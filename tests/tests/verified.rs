@@ -68,7 +68,7 @@ fn attraction(
 /// 2. It ends where it began, where it is fastest.
 fn orbit<I>(eccentricity: f64, integrator: I, least: f64)
 where
-    I: Runs<f64, Point, StandardLagrange, Absolute, ForceLaw<Law>>,
+    I: Runs<Problem<Point, StandardLagrange, f64, Absolute, ForceLaw<Law>>>,
 {
     let near = 1.0 - eccentricity;
     let speed = ((1.0 + eccentricity) / near).sqrt();
@@ -114,7 +114,7 @@ fn closures_that_jump() {
     }
     fn with<I>(integrator: I, least: f64)
     where
-        I: Runs<f64, Point, StandardLagrange, Absolute, ForceLaw<Law>>,
+        I: Runs<Problem<Point, StandardLagrange, f64, Absolute, ForceLaw<Law>>>,
     {
         let end = 41.0 * 2.0_f64.sqrt();
         let report = Simulation::new(&Point::default(), StandardLagrange, integrator)
@@ -136,7 +136,7 @@ fn closures_that_jump() {
 /// From a thousandth of a radian beside the upright, 6 s: the angle of the rod at the end.
 fn fallen<I>(integrator: I) -> (f64, RunReport<f64, RodPendulum>)
 where
-    I: Runs<f64, RodPendulum, StandardLagrange, Relative>,
+    I: Runs<Problem<RodPendulum, StandardLagrange, f64, Relative>>,
 {
     let (rod, pivot) = (RodPendulum::default(), RodPendulum::HANDLES.pivot);
     let mut start = rod.described_state::<f64>().expect("described");
@@ -216,7 +216,7 @@ fn reports_on_ends_of_steps_that_were_passed() {
 fn biased<F, I>(formulation: F, integrator: I, least: f64)
 where
     F: holonom::Formulation<f64>,
-    I: Runs<f64, RodPendulum, F, Absolute>,
+    I: Runs<Problem<RodPendulum, F, f64, Absolute>>,
 {
     let (rod, pivot) = (RodPendulum::default(), RodPendulum::HANDLES.pivot);
     let angle = |state: &StateOf<RodPendulum>| rod.view(2.0, state).map(|view| view.angle(pivot));

@@ -120,7 +120,8 @@ struct Scene<M> {
 fn cost<M, I>(scene: &Scene<M>, integrator: I, is_relative: bool) -> (f64, f64, usize)
 where
     M: JointCoordinates,
-    I: Runs<f64, M, StandardLagrange, Absolute> + Runs<f64, M, StandardLagrange, Relative>,
+    I: Runs<Problem<M, StandardLagrange, f64, Absolute>>
+        + Runs<Problem<M, StandardLagrange, f64, Relative>>,
 {
     let simulation = |is_monitored| {
         let simulation = Simulation::new(&scene.mechanism, StandardLagrange, integrator);

@@ -197,7 +197,7 @@ fn program(scene: Scene, by_joints: bool) -> String {
         Scene::FourBars(windows) => four_bars(windows, coordinates),
     };
     let steps = if by_joints {
-        "    let mut dynamics = holonom::dynamics::Dynamics::<f64, _, _>::new(&Scene::default(), StandardLagrange)?.joint_coordinates();\n    \
+        "    let mut dynamics = holonom::dynamics::Dynamics::<Problem<_, _>>::new(&Scene::default(), StandardLagrange)?.joint_coordinates();\n    \
          let mut state = dynamics.initial_state()?;\n    \
          for step in 0..1000 {\n        holonom::integrate::OneStep::step(&Rk4, &mut dynamics, 1e-3 * f64::from(step), &mut state, 1e-3)?;\n    }\n    \
          println!(\"{:?}\", dynamics.bodies(&state));\n"

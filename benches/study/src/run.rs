@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use holonom::{
     Fault, Formulation, Mechanism, Real, Runs, Sample, Simulation,
-    dynamics::Iterations,
+    dynamics::{Iterations, Problem},
     every,
     integrate::{Advance as _, Counts, Integration as _, Integrator, System, TimeSpan},
     mechanism::{Absolute, Orientation},
@@ -45,7 +45,7 @@ where
     P: Orientation,
     M: Mechanism,
     F: Formulation<f64>,
-    I: Runs<f64, M, F, Absolute<P>>,
+    I: Runs<Problem<M, F, f64, Absolute<P>>>,
 {
     let stopped = |reason: String| StudyError::Run {
         name: name.to_owned(),

@@ -8,12 +8,11 @@
 use core::fmt::Debug;
 
 use super::evaluate::Evaluate;
-use super::{Dynamics, Iterations};
+use super::{Dynamics, Iterations, Solvable};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{OneStep as _, Rk4, System as _};
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
 use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
@@ -145,13 +144,9 @@ pub(crate) trait Equations<S: Real, M: Mechanism>: Evaluate<S, M> {
     fn explained(&self, fault: Fault, absolute: Option<S>, at: StateAt<S, M>) -> Fault;
 }
 
-impl<S, M, F, A, C> Equations<S, M> for Dynamics<S, M, F, A, C>
+impl<P, S: Real, M: Mechanism, C: Coordinates<M>> Equations<S, M> for Dynamics<P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M, Coordinates = C>,
 {
     fn parameters(&self) -> &M::Parameters<S> {
         Self::parameters(self)

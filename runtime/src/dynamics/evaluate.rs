@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::Dynamics;
+use super::{Dynamics, Solvable};
 use crate::error::Fault;
 use crate::formulation::{Formulation, Saddle, Solution};
 use crate::math::scalar::Real;
@@ -432,13 +432,9 @@ pub(crate) trait Evaluate<S: Real, M: Mechanism> {
     fn keep_efforts(&mut self, time: S, bodies: &M::State<S>) -> Result<(), Fault>;
 }
 
-impl<S, M, F, A, C> Evaluate<S, M> for Dynamics<S, M, F, A, C>
+impl<P, S: Real, M: Mechanism> Evaluate<S, M> for Dynamics<P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M>,
 {
     fn constants(&self) -> &M::Constants<S> {
         Self::constants(self)

@@ -1,6 +1,6 @@
 //! Why a mechanism has no rates: asked after a step was refused, apart from what a step takes.
 
-use super::{Dynamics, Evaluator, vanishes};
+use super::{Dynamics, Evaluator, Solvable, vanishes};
 use crate::constraints::extent::farthest;
 use crate::dynamics::origin::{before_accelerations, differing, state_of};
 use crate::error::{Fault, NotFinite};
@@ -14,13 +14,9 @@ use crate::mechanism::kernels::{Mechanism, Pivot, Terms};
 use crate::mechanism::orientations::{check_state, with_unit_orientations};
 use crate::state::vector::{Array, MovingState, StateParts};
 
-impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
+impl<P, S: Real, M: Mechanism, F: Formulation<S>, A> Dynamics<P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M, Formulation = F, Forces = A>,
 {
     /// A fault of an integrator, which knows no joints, with the joint whose pivot has nearly
     /// vanished at a state, and with what the number type resolves of a position where that is

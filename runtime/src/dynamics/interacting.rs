@@ -1,8 +1,8 @@
 //! Efforts, impulses and modes of interactions.
 
-use super::Dynamics;
+use super::{Dynamics, Posed, Solvable};
 use crate::error::Fault;
-use crate::formulation::{Formulation, add};
+use crate::formulation::add;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
@@ -13,13 +13,34 @@ use crate::nonsmooth::status::Tracked;
 use crate::nonsmooth::task::Task;
 use crate::state::vector::{Array, MovingState, Vector as _};
 
-impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
+/// The interactions of a problem.
+type List<P> =
+    <<P as Posed>::Forces as AppliedForces<<P as Posed>::Number, <P as Posed>::Mechanism>>::List;
+
+impl<P: Solvable> Dynamics<P> {
+    /// Calls with the interactions, to be changed, and with the equations, where they are as they
+    /// were until then. `None` where there are none.
+    ///
+    /// # Errors
+    /// That of the call; the interactions are then as before.
+    pub(super) fn change_list<R>(
+        &mut self,
+        change: impl FnOnce(&Self, &mut List<P>) -> Result<R, Fault>,
+    ) -> Result<Option<R>, Fault> {
+        let Some(mut list) = self.forces.list_mut().map(|list| list.clone()) else {
+            return Ok(None);
+        };
+        let changed = change(self, &mut list)?;
+        if let Some(place) = self.forces.list_mut() {
+            *place = list;
+        }
+        Ok(Some(changed))
+    }
+}
+
+impl<P, S: Real, M: Mechanism, C: Coordinates<M>> Dynamics<P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M, Coordinates = C>,
 {
     /// The interactions, with their statuses.
     pub(crate) fn tracked(&self) -> &[Tracked<S, M>] {
@@ -31,7 +52,7 @@ where
     /// # Errors
     /// [`Fault::InteractionSetting`].
     pub(crate) fn renew_limits(&mut self) -> Result<(), Fault> {
-        if A::INTERACTS {
+        if P::Forces::INTERACTS {
             let parameters = *self.parameters();
             self.forces.renew(&parameters);
             for tracked in self.tracked() {
@@ -49,25 +70,6 @@ where
         }
     }
 
-    /// Calls with the interactions, to be changed, and with the equations, where they are as they
-    /// were until then. `None` where there are none.
-    ///
-    /// # Errors
-    /// That of the call; the interactions are then as before.
-    pub(super) fn change_list<R>(
-        &mut self,
-        change: impl FnOnce(&Self, &mut A::List) -> Result<R, Fault>,
-    ) -> Result<Option<R>, Fault> {
-        let Some(mut list) = self.forces.list_mut().map(|list| list.clone()) else {
-            return Ok(None);
-        };
-        let changed = change(self, &mut list)?;
-        if let Some(place) = self.forces.list_mut() {
-            *place = list;
-        }
-        Ok(Some(changed))
-    }
-
     /// Shows what all interactions exert in a state.
     pub(crate) fn efforts(
         &self,
@@ -75,7 +77,7 @@ where
         state: &C::State<S>,
         show: &mut Show<'_, S>,
     ) -> Result<(), Fault> {
-        if !A::INTERACTS {
+        if !P::Forces::INTERACTS {
             return Ok(());
         }
         let (mut rates, mut multipliers) = (C::State::zeros(), Array::zeros());
@@ -107,7 +109,7 @@ where
         state: &C::State<S>,
         bodies: &M::State<S>,
     ) -> Option<S> {
-        if !A::INTERACTS || !self.tracked().iter().any(Tracked::slips_by_load) {
+        if !P::Forces::INTERACTS || !self.tracked().iter().any(Tracked::slips_by_load) {
             return Some(S::zero());
         }
         let scene = Scene::<S, M> {
@@ -134,7 +136,7 @@ where
         state: &C::State<S>,
     ) -> Result<Option<C::State<S>>, Fault> {
         let holds = |tracked: &Tracked<S, M>| tracked.mode().holds();
-        if !A::INTERACTS || !self.tracked().iter().any(holds) {
+        if !P::Forces::INTERACTS || !self.tracked().iter().any(holds) {
             return Ok(None);
         }
         let mut faster = C::Velocities::<S>::zeros();

@@ -1,22 +1,17 @@
 //! The Jacobian of the rates, by kernels over forward numbers.
 
-use super::Dynamics;
+use super::{Dynamics, Solvable};
 use crate::formulation::Formulation;
 use crate::forward::{Forward, Lifted, by_forward_numbers, lifted, with_differences};
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::{Coordinates, Prepared};
 use crate::mechanism::kernels::{Mechanism, Stabilisation};
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::state::vector::{Array, MovingState, Vector};
 
-impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
+impl<P, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M, Formulation = F, Forces = A, Coordinates = C>,
 {
     /// Writes the columns of the Jacobian, and says how many there were. `None` where a derivative
     /// is not finite.

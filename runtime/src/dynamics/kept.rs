@@ -3,9 +3,8 @@
 //! Their pivots vanish everywhere, so the rank is followed by the least eigenvalue beside zero of
 //! the rows' own matrix, `G = D M^-1 D^T`, in the scale of its diagonal.
 
-use super::Dynamics;
+use super::{Dynamics, Solvable};
 use crate::constraints::rows::Rows;
-use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Compliant, Mechanism, Pivot};
@@ -15,7 +14,10 @@ use crate::state::vector::Array;
 /// estimate is.
 const ITERATIONS: usize = 3;
 
-impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S, M, F, A, C> {
+impl<P, S: Real, M: Mechanism, C: Coordinates<M>> Dynamics<P>
+where
+    P: Solvable<Number = S, Mechanism = M, Coordinates = C>,
+{
     /// The least eigenvalue beside zero of `S^-1 G S^-1`, with `S^2` the diagonal of `G`, and the
     /// joint whose rows have most of it. It goes with the square of the distance from where it
     /// vanishes, as a relative pivot does, down to the compliance that keeps the matrix regular.

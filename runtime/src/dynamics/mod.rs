@@ -34,12 +34,15 @@ mod system;
 mod trial;
 
 use core::fmt;
-use core::marker::PhantomData;
 
 use evaluate::VANISHED;
 pub(crate) use evaluate::{Evaluator, vanishes};
 pub(crate) use faults::singular;
-pub use problem::{Posed, Problem, Solvable};
+pub(crate) use problem::Carrying;
+pub use problem::{
+    Bodies, Posed, Problem, Solvable, State, UnderWay, WithCoordinates, WithForces,
+    WithInteractions, WithLaw,
+};
 
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::compliance::compliances;
@@ -62,9 +65,8 @@ use crate::state::vector::{Array as _, StateParts, Vector};
 
 /// A mechanism with a formulation, prepared: what an integrator moves.
 ///
-/// `A` says which forces come on top of those of the description, `C` in which coordinates the
-/// equations are solved. States are [`Coordinates::State`]: in absolute coordinates the state of
-/// the bodies, in relative ones [`JointCoordinates::JointState`]. [`Dynamics::bodies`] says how the
+/// States are those of the [`Problem`] ([`State`]): in absolute coordinates the state of the
+/// bodies, in relative ones [`JointCoordinates::JointState`]. [`Dynamics::bodies`] says how the
 /// bodies stand and move in a state, and everything that can be read of a mechanism is read there.
 ///
 /// ```
@@ -80,7 +82,7 @@ use crate::state::vector::{Array as _, StateParts, Vector};
 ///     hinge: Revolute,
 /// }
 ///
-/// let mut dynamics = Dynamics::<f64, _, _>::new(&Rod::default(), StandardLagrange)?;
+/// let mut dynamics = Dynamics::<Problem<_, _>>::new(&Rod::default(), StandardLagrange)?;
 /// let mut state = dynamics.initial_state()?;
 /// for step in 0..100 {
 ///     Rk4.step(&mut dynamics, 0.01 * f64::from(step), &mut state, 0.01)?;
@@ -90,28 +92,21 @@ use crate::state::vector::{Array as _, StateParts, Vector};
 /// assert!((state.pairs()[0][0] - angle.cos()).abs() < 1e-14);
 /// # Ok::<(), Fault>(())
 /// ```
-pub struct Dynamics<
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A = NoForces,
-    C: Coordinates<M> = <M as Mechanism>::Coordinates,
-> {
-    parameters: M::Parameters<S>,
-    absolute: AbsoluteEquations<S, M>,
-    own: C::Own<S>,
-    stabilisation: Stabilisation<S>,
-    formulation: F,
-    forces: A,
+pub struct Dynamics<P: Solvable> {
+    parameters: <P::Mechanism as Mechanism>::Parameters<P::Number>,
+    absolute: AbsoluteEquations<P::Number, P::Mechanism>,
+    own: <P::Coordinates as Coordinates<P::Mechanism>>::Own<P::Number>,
+    stabilisation: Stabilisation<P::Number>,
+    formulation: P::Formulation,
+    forces: P::Forces,
     pub(crate) iterations: Iterations,
-    pub(crate) seen: Seen<S>,
+    pub(crate) seen: Seen<P::Number>,
     /// Whether turns were counted through the last step.
     has_counted: bool,
     /// The relative pivot from which on it is asked whether a singular configuration is passed.
-    pub(crate) near: S,
+    pub(crate) near: P::Number,
     /// The pivot without the compliance at the end of the last step, where it was found.
-    rigid: Option<S>,
-    coordinates: PhantomData<C>,
+    rigid: Option<P::Number>,
 }
 
 /// The parameters and inputs of a mechanism; inputs are finite in the number type of the run, too.
@@ -153,7 +148,7 @@ fn equations<S: Real, M: Mechanism, F: Formulation<S>>(
     })
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F, NoForces, M::Coordinates> {
+impl<M: Mechanism, F: Formulation<S>, S: Real> Dynamics<Problem<M, F, S>> {
     /// Prepares the kernels in the coordinates that the attribute of the mechanism names, without
     /// forces beyond the description.
     ///
@@ -184,14 +179,11 @@ impl<S: Real, M: Mechanism, F: Formulation<S>> Dynamics<S, M, F, NoForces, M::Co
             has_counted: false,
             near: S::constant(VANISHED) * S::EPSILON,
             rigid: None,
-            coordinates: PhantomData,
         })
     }
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>, A: Clone, C: Coordinates<M>> Clone
-    for Dynamics<S, M, F, A, C>
-{
+impl<P: Solvable<Forces: Clone>> Clone for Dynamics<P> {
     fn clone(&self) -> Self {
         Self {
             parameters: self.parameters,
@@ -205,65 +197,36 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A: Clone, C: Coordinates<M>> Clon
             has_counted: false,
             near: self.near,
             rigid: self.rigid,
-            coordinates: PhantomData,
         }
     }
 }
 
 /// The name of the mechanism, and how often a formulation has solved.
-impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> fmt::Debug
-    for Dynamics<S, M, F, A, C>
-{
+impl<P: Solvable> fmt::Debug for Dynamics<P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Dynamics")
-            .field("mechanism", &M::REPORT.name)
+            .field("mechanism", &P::Mechanism::REPORT.name)
             .field("iterations", &self.iterations)
             .finish_non_exhaustive()
     }
 }
 
-impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S, M, F, A, C> {
+impl<P, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<P>
+where
+    P: Solvable<Number = S, Mechanism = M, Formulation = F, Forces = A, Coordinates = C>,
+{
     /// The same with forces from a closure, which is shown the state of the bodies.
     #[must_use]
-    pub fn forces<G>(self, law: G) -> Dynamics<S, M, F, ForceLaw<G>, C>
+    pub fn forces<G>(self, law: G) -> Dynamics<WithForces<P, ForceLaw<G>>>
     where
         G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
     {
         self.with_forces(ForceLaw(law))
     }
 
-    pub(crate) fn with_forces<A2>(self, forces: A2) -> Dynamics<S, M, F, A2, C> {
-        self.exchange_forces(|_| forces)
-    }
-
-    pub(crate) fn exchange_forces<A2>(
-        self,
-        exchange: impl FnOnce(A) -> A2,
-    ) -> Dynamics<S, M, F, A2, C> {
-        Dynamics {
-            parameters: self.parameters,
-            absolute: self.absolute,
-            own: self.own,
-            stabilisation: self.stabilisation,
-            formulation: self.formulation,
-            forces: exchange(self.forces),
-            iterations: self.iterations,
-            seen: self.seen,
-            has_counted: false,
-            near: self.near,
-            rigid: self.rigid,
-            coordinates: PhantomData,
-        }
-    }
-
-    /// The forces beyond the description.
-    pub(crate) fn applied_forces(&self) -> &A {
-        &self.forces
-    }
-
     /// The same in other coordinates.
     #[must_use]
-    pub fn coordinates<C2: Coordinates<M>>(self) -> Dynamics<S, M, F, A, C2> {
+    pub fn coordinates<C2: Coordinates<M>>(self) -> Dynamics<WithCoordinates<P, C2>> {
         Dynamics {
             own: C2::own(&self.parameters, &self.stabilisation, &self.absolute),
             parameters: self.parameters,
@@ -276,13 +239,12 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
             has_counted: false,
             near: self.near,
             rigid: self.rigid,
-            coordinates: PhantomData,
         }
     }
 
     /// The same in relative (joint) coordinates.
     #[must_use]
-    pub fn joint_coordinates(self) -> Dynamics<S, M, F, A, Relative>
+    pub fn joint_coordinates(self) -> Dynamics<WithCoordinates<P, Relative>>
     where
         M: JointCoordinates,
     {
@@ -291,15 +253,46 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
 
     /// The same in absolute coordinates.
     #[must_use]
-    pub fn absolute_coordinates(self) -> Dynamics<S, M, F, A, Absolute> {
+    pub fn absolute_coordinates(self) -> Dynamics<WithCoordinates<P, Absolute>> {
         self.coordinates()
     }
 
     /// The same in absolute coordinates, with other rates of Euler parameters.
     #[doc(hidden)]
     #[must_use]
-    pub fn orientation<P: Orientation>(self) -> Dynamics<S, M, F, A, Absolute<P>> {
+    pub fn orientation<O: Orientation>(self) -> Dynamics<WithCoordinates<P, Absolute<O>>> {
         self.coordinates()
+    }
+
+    pub(crate) fn with_forces<A2: AppliedForces<S, M>>(
+        self,
+        forces: A2,
+    ) -> Dynamics<WithForces<P, A2>> {
+        self.exchange_forces(|_| forces)
+    }
+
+    pub(crate) fn exchange_forces<A2: AppliedForces<S, M>>(
+        self,
+        exchange: impl FnOnce(A) -> A2,
+    ) -> Dynamics<WithForces<P, A2>> {
+        Dynamics {
+            parameters: self.parameters,
+            absolute: self.absolute,
+            own: self.own,
+            stabilisation: self.stabilisation,
+            formulation: self.formulation,
+            forces: exchange(self.forces),
+            iterations: self.iterations,
+            seen: self.seen,
+            has_counted: false,
+            near: self.near,
+            rigid: self.rigid,
+        }
+    }
+
+    /// The forces beyond the description.
+    pub(crate) fn applied_forces(&self) -> &A {
+        &self.forces
     }
 
     /// Takes the present parameters and inputs of the mechanism.
@@ -459,16 +452,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
             forces: &self.forces,
         }
     }
-}
 
-impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
     /// Rates of the state and multipliers, and how often the system was solved.
     ///
     /// # Errors
@@ -546,11 +530,11 @@ where
     /// Round-off for rigid constraints; the bias of a [`Penalty`](crate::Penalty), which a motion
     /// gathers; for an augmented Lagrangian what its tolerance, or an acceptance, leaves. It costs
     /// about as much as one evaluation.
-    pub fn inconsistency<P: Orientation>(
+    pub fn inconsistency<O: Orientation>(
         &self,
         time: S,
         bodies: &M::State<S>,
-        evaluation: &Evaluation<S, M, Absolute<P>>,
+        evaluation: &Evaluation<S, M, Absolute<O>>,
     ) -> (S, Option<&'static str>) {
         let read = &with_unit_orientations::<S, M>(bodies);
         let forces = self.all_forces(time, read);

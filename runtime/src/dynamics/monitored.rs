@@ -1,10 +1,9 @@
 //! What the monitor asks for of a mechanism under way.
 
 use super::evaluate::{Evaluate, Parts};
-use super::{Dynamics, Evaluator, vanishes};
+use super::{Dynamics, Evaluator, Solvable, vanishes};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
 use crate::mechanism::at::At;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Plain, Terms};
@@ -19,13 +18,9 @@ const BIAS_EVERY: usize = 16;
 /// is found all the same.
 const PIVOT_EVERY: usize = 2;
 
-impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
+impl<P, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M, Formulation = F, Forces = A, Coordinates = C>,
 {
     /// Whether equations that depend on others are kept and not solved.
     const HAS_NO_RANK: bool = M::REPORT.keeps_redundant() && !F::Terms::COMPLIANT;

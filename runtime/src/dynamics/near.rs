@@ -3,15 +3,17 @@
 
 use core::mem::replace;
 
-use super::Dynamics;
-use crate::formulation::Formulation;
+use super::{Dynamics, Solvable};
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::turns;
 use crate::state::vector::Vector as _;
 
-impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S, M, F, A, C> {
+impl<P, S: Real, M: Mechanism, C: Coordinates<M>> Dynamics<P>
+where
+    P: Solvable<Number = S, Mechanism = M, Coordinates = C>,
+{
     /// The bodies of a state, when they stood near by a moment ago: Euler parameters keep their
     /// signs as far as they can.
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! A step of the generalized-alpha method, solved on the constraints.
 
 use super::trial::Trial;
-use super::{Dynamics, singular, vanishes};
+use super::{Dynamics, Problem, singular, vanishes};
 use crate::constraints::extent::extent;
 use crate::constraints::extent::farthest;
 use crate::error::{Fault, LeavesOut};
@@ -38,14 +38,14 @@ const TURNS: usize = 4;
 /// Below this power of `EPSILON` changes that no longer fall are round-off.
 const NOISE: f64 = 0.6;
 
-impl<S, M, F, A, P> RigidConstraints<S> for Dynamics<S, M, F, A, Absolute<P>>
+impl<M, F, S, A, O> RigidConstraints<S> for Dynamics<Problem<M, F, S, Absolute<O>, A>>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
     F::Terms: Rigid,
     A: AppliedForces<S, M>,
-    P: Orientation,
+    O: Orientation,
 {
     fn step_on_constraints(
         &mut self,
@@ -58,13 +58,13 @@ where
     }
 }
 
-impl<S, M, F, A, P> Dynamics<S, M, F, A, Absolute<P>>
+impl<M, F, S, A, O> Dynamics<Problem<M, F, S, Absolute<O>, A>>
 where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
     A: AppliedForces<S, M>,
-    P: Orientation,
+    O: Orientation,
 {
     /// See [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     ///

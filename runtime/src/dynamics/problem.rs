@@ -4,18 +4,27 @@ use core::marker::PhantomData;
 
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
-use crate::measure::load::{AppliedForces, NoForces};
+use crate::measure::interacting::{Heeding, Interacting};
+use crate::measure::load::{AppliedForces, ForceLaw, NoForces};
 use crate::mechanism::coordinates::Coordinates;
-use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::kernels::{Mechanism, StateOf};
 
-/// A mechanism `M` over numbers `S`, with a formulation `F`, forces `A` beside those of its
-/// description, and coordinates `C`.
+/// A mechanism `M` with a formulation `F`, over numbers `S`, in coordinates `C`, and with forces
+/// `A` beside those of its description.
+///
+/// What is not said is the usual: numbers of type `f64`, the coordinates that the attribute of the
+/// mechanism names, no further forces. So `Problem<Rod, StandardLagrange>` is that of
+/// `rod.simulation(StandardLagrange, ..)`, and `Problem<Rod, StandardLagrange, f32>` the same in
+/// single precision.
 ///
 /// It is never a value. It stands in the type of what solves it, such as
-/// [`Simulation`](crate::Simulation), where a struct of yours has to name that:
+/// [`Simulation`](crate::Simulation) and [`Stepper`](crate::Stepper), where a struct of yours has
+/// to name that:
 ///
 /// ```
-/// # use holonom::prelude::*;
+/// use holonom::dynamics::State;
+/// use holonom::prelude::*;
+///
 /// # #[derive(Mechanism)]
 /// # #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 /// # struct Rod {
@@ -24,26 +33,32 @@ use crate::mechanism::kernels::Mechanism;
 /// #     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
 /// #     hinge: Revolute,
 /// # }
-/// use holonom::dynamics::Problem;
-/// use holonom::integrate::FixedStep;
+/// type Swing = Problem<Rod, StandardLagrange>;
 ///
-/// struct Experiment<'a> {
-///     run: Simulation<'a, Problem<f64, Rod, StandardLagrange>, FixedStep<f64, Rk4>>,
+/// struct Plant {
+///     stepper: Stepper<Swing, Rk4>,
+///     state: State<Swing>,
 /// }
 ///
-/// let rod = Rod::default();
-/// let experiment = Experiment { run: rod.simulation(StandardLagrange, Rk4::every(1e-3)) };
-/// experiment.run.run(0.0..=1.0, every(0.1), |_| ())?;
-/// # Ok::<(), SimulationError<StateOf<Rod>>>(())
+/// let stepper = Rod::default().stepper(StandardLagrange, Rk4)?;
+/// let mut plant = Plant { state: stepper.initial_state()?, stepper };
+/// plant.stepper.step(&mut plant.state, 1e-3)?;
+/// # Ok::<(), Fault>(())
 /// ```
-pub struct Problem<S, M: Mechanism, F, A = NoForces, C = <M as Mechanism>::Coordinates>(
-    PhantomData<Parts<S, M, F, A, C>>,
+///
+/// [`WithCoordinates`], [`WithForces`] and [`WithInteractions`] say what was changed, as in
+/// `Stepper<WithInteractions<Swing, 1>, Rk4>`.
+///
+/// A function over all problems asks for a [`Solvable`]. One that runs or steps asks its method for
+/// [`Runs`](crate::Runs), [`Leads`](crate::run::Leads) or [`Steps`](crate::run::Steps) of it.
+pub struct Problem<M: Mechanism, F, S = f64, C = <M as Mechanism>::Coordinates, A = NoForces>(
+    PhantomData<Parts<M, F, S, C, A>>,
 );
 
 /// It has none of them.
-type Parts<S, M, F, A, C> = fn() -> (S, M, F, A, C);
+type Parts<M, F, S, C, A> = fn() -> (M, F, S, C, A);
 
-impl<S, M: Mechanism, F, A, C> core::fmt::Debug for Problem<S, M, F, A, C> {
+impl<M: Mechanism, F, S, C, A> core::fmt::Debug for Problem<M, F, S, C, A> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_tuple("Problem").field(&M::REPORT.name).finish()
     }
@@ -51,48 +66,96 @@ impl<S, M: Mechanism, F, A, C> core::fmt::Debug for Problem<S, M, F, A, C> {
 
 /// What a [`Problem`] is made of. Nothing else implements it.
 pub trait Posed: private::Sealed {
-    /// The number type.
-    type Number: Real;
     /// The mechanism.
     type Mechanism: Mechanism;
     /// The formulation.
     type Formulation;
-    /// Forces beside those of the description.
-    type Forces;
+    /// The number type.
+    type Number: Real;
     /// The coordinates in which the equations of motion are solved.
     type Coordinates;
+    /// Forces beside those of the description.
+    type Forces;
 }
 
-impl<S: Real, M: Mechanism, F, A, C> Posed for Problem<S, M, F, A, C> {
-    type Number = S;
+impl<M: Mechanism, F, S: Real, C, A> Posed for Problem<M, F, S, C, A> {
     type Mechanism = M;
     type Formulation = F;
-    type Forces = A;
+    type Number = S;
     type Coordinates = C;
+    type Forces = A;
 }
 
 /// A [`Problem`] whose parts go together: what can be solved. Nothing else implements it.
 pub trait Solvable:
     Posed<
         Formulation: Formulation<<Self as Posed>::Number>,
-        Forces: AppliedForces<<Self as Posed>::Number, <Self as Posed>::Mechanism>,
         Coordinates: Coordinates<<Self as Posed>::Mechanism>,
+        Forces: AppliedForces<<Self as Posed>::Number, <Self as Posed>::Mechanism>,
     >
 {
 }
 
-impl<S, M, F, A, C> Solvable for Problem<S, M, F, A, C>
+impl<M, F, S, C, A> Solvable for Problem<M, F, S, C, A>
 where
-    S: Real,
     M: Mechanism,
     F: Formulation<S>,
-    A: AppliedForces<S, M>,
+    S: Real,
     C: Coordinates<M>,
+    A: AppliedForces<S, M>,
 {
 }
+
+/// The state that a solution moves, in the coordinates of the problem.
+pub type State<P> = <<P as Posed>::Coordinates as Coordinates<<P as Posed>::Mechanism>>::State<
+    <P as Posed>::Number,
+>;
+
+/// The state of the bodies, which everything is read of.
+pub type Bodies<P> = StateOf<<P as Posed>::Mechanism, <P as Posed>::Number>;
+
+/// The problem in other coordinates.
+pub type WithCoordinates<P, C> = Problem<
+    <P as Posed>::Mechanism,
+    <P as Posed>::Formulation,
+    <P as Posed>::Number,
+    C,
+    <P as Posed>::Forces,
+>;
+
+/// The problem with other forces.
+pub type WithForces<P, A> = Problem<
+    <P as Posed>::Mechanism,
+    <P as Posed>::Formulation,
+    <P as Posed>::Number,
+    <P as Posed>::Coordinates,
+    A,
+>;
+
+/// The problem with forces of a closure `G`.
+pub type WithLaw<P, G> = WithForces<
+    P,
+    <<P as Posed>::Forces as AppliedForces<<P as Posed>::Number, <P as Posed>::Mechanism>>::With<
+        ForceLaw<G>,
+    >,
+>;
+
+/// The problem with `N` interactions, the limits of the description among them.
+pub type WithInteractions<P, const N: usize> = WithForces<
+    P,
+    Interacting<<P as Posed>::Number, <P as Posed>::Mechanism, <P as Posed>::Forces, N>,
+>;
+
+/// The problem with its forces under way, which have the limits of the description and the
+/// statuses of all interactions: what a step solves.
+pub type UnderWay<P> = Carrying<P, <P as Posed>::Forces>;
+
+/// The same with other forces.
+pub(crate) type Carrying<P, A> =
+    WithForces<P, Heeding<<P as Posed>::Number, <P as Posed>::Mechanism, A>>;
 
 mod private {
     pub trait Sealed {}
 
-    impl<S, M: crate::Mechanism, F, A, C> Sealed for super::Problem<S, M, F, A, C> {}
+    impl<M: crate::Mechanism, F, S, C, A> Sealed for super::Problem<M, F, S, C, A> {}
 }

@@ -2,12 +2,11 @@
 //! `docs/decisions/034-straight-on.md`.
 
 use super::evaluate::Parts;
-use super::{Dynamics, Evaluator, VANISHED, vanishes};
+use super::{Dynamics, Evaluator, Solvable, VANISHED, vanishes};
 use crate::constraints::rows::Rows;
 use crate::error::Fault;
 use crate::formulation::{Formulation, StraightOn};
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::{Coordinates, Equations};
 use crate::mechanism::kernels::{Mechanism, Terms};
 use crate::mechanism::orientations::with_unit_orientations;
@@ -29,13 +28,9 @@ const AROUND: f64 = 0.1;
 /// How many times larger a pivot is there on the way through a singular configuration.
 const GROWN: f64 = 3.0;
 
-impl<S, M, F, A, C> Dynamics<S, M, F, A, C>
+impl<P, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M, Formulation = F, Forces = A, Coordinates = C>,
 {
     /// Whether joints are closed on the way through a singular configuration: in runs, whose
     /// equations have pivots.

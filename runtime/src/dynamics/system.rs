@@ -1,24 +1,19 @@
 //! The equations of motion as a system of ordinary differential equations.
 
 use super::evaluate::Parts;
-use super::{Dynamics, Evaluator, vanishes};
+use super::{Dynamics, Evaluator, Solvable, vanishes};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{SecondOrder, System, by_differences};
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::turns;
 use crate::state::vector::{Array, MovingState, Vector};
 
-impl<S, M, F, A, C> System<S> for Dynamics<S, M, F, A, C>
+impl<P, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> System<S> for Dynamics<P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M, Formulation = F, Forces = A, Coordinates = C>,
 {
     type State = C::State<S>;
 
@@ -121,13 +116,9 @@ where
     }
 }
 
-impl<S, M, F, A, C> SecondOrder<S> for Dynamics<S, M, F, A, C>
+impl<P, S: Real, M: Mechanism, C: Coordinates<M>> SecondOrder<S> for Dynamics<P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M, Coordinates = C>,
 {
     #[inline]
     fn with_new_velocities(

@@ -3,24 +3,22 @@
 use core::array::from_fn;
 use core::fmt::{self, Debug};
 
-use super::equations::LaneEquations;
+use super::equations::{LaneEquations, StateOfAll};
 use super::exchange::{put_state, state_of};
-use super::number::Lanes;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Bodies, Dynamics, Problem, Solvable, State, WithCoordinates};
 use crate::error::{Fault, SimulationError};
 use crate::formulation::Formulation;
 use crate::integrate::Scheme;
 use crate::math::clock::Clock;
 use crate::math::scalar::Real;
-use crate::measure::load::NoForces;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
-use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::kernels::{InputsOf, Mechanism};
 use crate::state::vector::MovingState;
 
 /// Several mechanisms of one type, each with its own parameters, inputs and start: a step moves
-/// all of them at once, a lane of [`Lanes`] for each.
+/// all of them at once, a lane of [`Lanes`](super::Lanes) for each.
 ///
 /// The numbers are those of a [`Stepper`](crate::Stepper) for each mechanism, bit for bit on one
 /// machine. The time is common to all. A step allocates nothing and does not panic.
@@ -29,7 +27,8 @@ use crate::state::vector::MovingState;
 /// others go on. [`Ensemble::stopped`] has the time of its last good state, the fault that a
 /// [`Stepper`](crate::Stepper) gives, and the state itself.
 ///
-/// Any explicit scheme will do ([`Rk4`](crate::Rk4), [`Heun`](crate::Heun),
+/// `P` is the [`Problem`] that is solved in each lane, `K` the method. Any explicit scheme will do
+/// ([`Rk4`](crate::Rk4), [`Heun`](crate::Heun),
 /// [`DormandPrince5`](crate::integrate::DormandPrince5)), and any formulation without an iteration:
 /// an [`AugmentedLagrangian`](crate::AugmentedLagrangian) does not compile.
 ///
@@ -57,7 +56,7 @@ use crate::state::vector::MovingState;
 ///     rods.push(Rod::new(0.25 * f64::from(k))?);
 /// }
 /// let rods: [Rod; 8] = rods.try_into().ok().expect("there are eight");
-/// let mut ensemble = Ensemble::<f64, _, _, _, _, 8>::new(&rods, StandardLagrange, Rk4)?;
+/// let mut ensemble = Ensemble::<Problem<_, _>, _, 8>::new(&rods, StandardLagrange, Rk4)?;
 /// for _ in 0..100 {
 ///     ensemble.step(1e-3)?;
 /// }
@@ -66,26 +65,25 @@ use crate::state::vector::MovingState;
 /// assert!(angles[0] < angles[7] && angles[7] < -0.03); // a short rod falls faster
 /// # Ok::<(), Fault>(())
 /// ```
-pub struct Ensemble<T: Real, M: Mechanism, F: Formulation<T>, K, C: Coordinates<M>, const L: usize>
-{
+pub struct Ensemble<P: Solvable, K, const L: usize> {
     /// Each lane by itself.
-    pub(super) dynamics: [Dynamics<T, M, F, NoForces, C>; L],
-    pub(super) equations: LaneEquations<T, M, C, F::Terms, L>,
-    pub(super) state: C::State<Lanes<T, L>>,
-    pub(super) stopped: [Option<SimulationError<C::State<T>>>; L],
+    pub(super) dynamics: [Dynamics<P>; L],
+    pub(super) equations: LaneEquations<P, L>,
+    pub(super) state: StateOfAll<P, L>,
+    pub(super) stopped: [Option<SimulationError<State<P>>>; L],
     /// How many lanes go on.
     pub(super) going: usize,
     pub(super) scheme: K,
-    pub(super) clock: Clock<T>,
+    pub(super) clock: Clock<P::Number>,
     pub(super) passes_limits: bool,
 }
 
-impl<T, M, F, K, const L: usize> Ensemble<T, M, F, K, M::Coordinates, L>
+impl<M, F, S, K, const L: usize> Ensemble<Problem<M, F, S>, K, L>
 where
-    T: Real,
     M: Mechanism,
-    F: Formulation<T>,
-    K: Scheme<T>,
+    F: Formulation<S>,
+    S: Real,
+    K: Scheme<S>,
 {
     /// Prepares all mechanisms in the coordinates that the attribute of their type names, at their
     /// described states and at time zero. A described state that cannot be a start stops its lane,
@@ -106,24 +104,13 @@ where
         for (dynamics, mechanism) in dynamics.iter_mut().zip(mechanisms).skip(1) {
             dynamics.update(mechanism)?;
         }
-        Ok(Self::described(dynamics, scheme, Clock::at(T::zero())))
+        Ok(Self::described(dynamics, scheme, Clock::at(S::zero())))
     }
 }
 
-impl<T, M, F, K, C, const L: usize> Ensemble<T, M, F, K, C, L>
-where
-    T: Real,
-    M: Mechanism,
-    F: Formulation<T>,
-    K: Scheme<T>,
-    C: Coordinates<M>,
-{
+impl<P: Solvable, K: Scheme<P::Number>, const L: usize> Ensemble<P, K, L> {
     /// All lanes at their described states.
-    fn described(
-        dynamics: [Dynamics<T, M, F, NoForces, C>; L],
-        scheme: K,
-        clock: Clock<T>,
-    ) -> Self {
+    fn described(dynamics: [Dynamics<P>; L], scheme: K, clock: Clock<P::Number>) -> Self {
         let mut ensemble = Self {
             dynamics,
             equations: LaneEquations::zeros(),
@@ -139,10 +126,7 @@ where
     }
 
     /// Begins all lanes anew.
-    fn begin(
-        &mut self,
-        mut start: impl FnMut(&Dynamics<T, M, F, NoForces, C>) -> Result<C::State<T>, Fault>,
-    ) {
+    fn begin(&mut self, mut start: impl FnMut(&Dynamics<P>) -> Result<State<P>, Fault>) {
         let time = self.clock.time().to_f64();
         let lanes = self.dynamics.iter().zip(&mut self.stopped);
         for (lane, (dynamics, stopped)) in lanes.enumerate() {
@@ -172,7 +156,7 @@ where
             return;
         };
         if self.going < L {
-            let state: C::State<T> = state_of(&self.state, going);
+            let state: State<P> = state_of(&self.state, going);
             for (lane, _) in self.stopped.iter().enumerate().filter(|(_, s)| s.is_some()) {
                 put_state(&mut self.state, lane, &state);
                 self.equations.put(lane, &self.dynamics[going]);
@@ -182,7 +166,7 @@ where
 
     /// Begins at a time (s).
     #[must_use]
-    pub fn starting_at(mut self, time: T) -> Self {
+    pub fn starting_at(mut self, time: P::Number) -> Self {
         self.clock = Clock::at(time);
         self
     }
@@ -198,7 +182,10 @@ where
     /// Solves the equations of motion in other coordinates, from the described states:
     /// `.coordinates::<Relative>()`.
     #[must_use]
-    pub fn coordinates<C2: Coordinates<M>>(self) -> Ensemble<T, M, F, K, C2, L> {
+    pub fn coordinates<C>(self) -> Ensemble<WithCoordinates<P, C>, K, L>
+    where
+        C: Coordinates<P::Mechanism>,
+    {
         let dynamics = self.dynamics.map(Dynamics::coordinates);
         Ensemble {
             passes_limits: self.passes_limits,
@@ -208,22 +195,22 @@ where
 
     /// Solves the equations of motion in relative (joint) coordinates, from the described states.
     #[must_use]
-    pub fn joint_coordinates(self) -> Ensemble<T, M, F, K, Relative, L>
+    pub fn joint_coordinates(self) -> Ensemble<WithCoordinates<P, Relative>, K, L>
     where
-        M: JointCoordinates,
+        P::Mechanism: JointCoordinates,
     {
         self.coordinates()
     }
 
     /// Solves the equations of motion in absolute coordinates, from the described states.
     #[must_use]
-    pub fn absolute_coordinates(self) -> Ensemble<T, M, F, K, Absolute, L> {
+    pub fn absolute_coordinates(self) -> Ensemble<WithCoordinates<P, Absolute>, K, L> {
         self.coordinates()
     }
 
     /// Starts every lane from a state of its bodies, at the time that was reached. A start that is
     /// refused ([`Dynamics::state_of`]) stops its lane; one that had stopped goes on.
-    pub fn start(&mut self, bodies: &[M::State<T>; L]) {
+    pub fn start(&mut self, bodies: &[Bodies<P>; L]) {
         let mut bodies = bodies.iter();
         self.begin(|dynamics| match bodies.next() {
             Some(bodies) => dynamics.state_of(bodies),
@@ -235,7 +222,7 @@ where
     ///
     /// # Errors
     /// A parameter that is not acceptable. Its lane and those behind it then keep the former ones.
-    pub fn update(&mut self, mechanisms: &[M; L]) -> Result<(), Fault> {
+    pub fn update(&mut self, mechanisms: &[P::Mechanism; L]) -> Result<(), Fault> {
         let mut lanes = self.dynamics.iter_mut().zip(mechanisms);
         let outcome = lanes.try_for_each(|(dynamics, mechanism)| dynamics.update(mechanism));
         self.take_equations();
@@ -246,7 +233,10 @@ where
     ///
     /// # Errors
     /// An input that is not finite. Its lane and those behind it then keep the former ones.
-    pub fn set_inputs(&mut self, inputs: &[M::Inputs<T>; L]) -> Result<(), Fault> {
+    pub fn set_inputs(
+        &mut self,
+        inputs: &[InputsOf<P::Mechanism, P::Number>; L],
+    ) -> Result<(), Fault> {
         let mut lanes = self.dynamics.iter_mut().zip(inputs);
         let outcome = lanes.try_for_each(|(dynamics, inputs)| dynamics.set_inputs(inputs));
         for (lane, stopped) in self.stopped.iter().enumerate() {
@@ -259,7 +249,7 @@ where
 
     /// The time that was reached (s), that of all lanes that go on.
     #[must_use]
-    pub fn time(&self) -> T {
+    pub fn time(&self) -> P::Number {
         self.clock.time()
     }
 
@@ -272,13 +262,13 @@ where
     /// Why and when lanes have stopped, with their last good states: `None` of a lane that goes on.
     /// The state of a lane whose start was refused is zero.
     #[must_use]
-    pub fn stopped(&self) -> &[Option<SimulationError<C::State<T>>>; L] {
+    pub fn stopped(&self) -> &[Option<SimulationError<State<P>>>; L] {
         &self.stopped
     }
 
     /// The state of every lane, the last good one where it has stopped.
     #[must_use]
-    pub fn states(&self) -> [C::State<T>; L] {
+    pub fn states(&self) -> [State<P>; L] {
         from_fn(|lane| match &self.stopped[lane] {
             Some(stopped) => stopped.state,
             None => state_of(&self.state, lane),
@@ -286,7 +276,7 @@ where
     }
 
     /// Calls with the number of every lane that goes on and readable access to its bodies.
-    pub fn each(&self, mut read: impl FnMut(usize, View<'_, T, M>)) {
+    pub fn each(&self, mut read: impl FnMut(usize, View<'_, P::Number, P::Mechanism>)) {
         let time = self.time();
         let lanes = self.dynamics.iter().zip(&self.stopped);
         for (lane, (dynamics, stopped)) in lanes.enumerate() {
@@ -299,14 +289,12 @@ where
 
     /// The prepared dynamics of every lane, for evaluations outside a step.
     #[must_use]
-    pub fn dynamics(&self) -> &[Dynamics<T, M, F, NoForces, C>; L] {
+    pub fn dynamics(&self) -> &[Dynamics<P>; L] {
         &self.dynamics
     }
 }
 
-impl<T: Real, M: Mechanism, F: Formulation<T>, K: Copy, C: Coordinates<M>, const L: usize> Clone
-    for Ensemble<T, M, F, K, C, L>
-{
+impl<P: Solvable<Forces: Clone>, K: Copy, const L: usize> Clone for Ensemble<P, K, L> {
     fn clone(&self) -> Self {
         Self {
             dynamics: self.dynamics.clone(),
@@ -322,12 +310,10 @@ impl<T: Real, M: Mechanism, F: Formulation<T>, K: Copy, C: Coordinates<M>, const
 }
 
 /// The name of the mechanism, the method, and how many lanes there are and go on.
-impl<T: Real, M: Mechanism, F: Formulation<T>, K: Debug, C: Coordinates<M>, const L: usize> Debug
-    for Ensemble<T, M, F, K, C, L>
-{
+impl<P: Solvable, K: Debug, const L: usize> Debug for Ensemble<P, K, L> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Ensemble")
-            .field("mechanism", &M::REPORT.name)
+            .field("mechanism", &P::Mechanism::REPORT.name)
             .field("method", &self.scheme)
             .field("lanes", &L)
             .field("going", &self.going)

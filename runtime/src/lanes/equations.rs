@@ -1,58 +1,51 @@
 //! The equations of several mechanisms, as a step of all of them takes them.
 
-use core::marker::PhantomData;
-
 use super::Lanes;
 use super::exchange::put;
-use crate::dynamics::{Dynamics, vanishes};
+use crate::dynamics::{Dynamics, Posed, Solvable, vanishes};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{SecondOrder, System};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::without_bounds::{copied, opaque};
 use crate::mechanism::coordinates::Coordinates;
-use crate::mechanism::kernels::{Mechanism, Terms};
 use crate::state::vector::{Array, MovingState, Vector};
 
 /// The equations of motion of several mechanisms of one type, a lane for each: what a scheme moves
 /// in a step of an [`Ensemble`](super::Ensemble).
-pub struct LaneEquations<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize> {
-    constants: C::Constants<Lanes<T, L>>,
-    coefficients: C::Coefficients<Lanes<T, L>>,
+pub struct LaneEquations<P: Solvable, const L: usize> {
+    constants: <P::Coordinates as Coordinates<P::Mechanism>>::Constants<Lanes<P::Number, L>>,
+    coefficients: <P::Coordinates as Coordinates<P::Mechanism>>::Coefficients<Lanes<P::Number, L>>,
     /// The smallest relative pivot of the stages of a step.
-    pivot: Lanes<T, L>,
-    terms: PhantomData<E>,
+    pivot: Lanes<P::Number, L>,
 }
 
-impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize>
-    LaneEquations<T, M, C, E, L>
-{
+/// The states of all lanes.
+pub(super) type StateOfAll<P, const L: usize> = <<P as Posed>::Coordinates as Coordinates<
+    <P as Posed>::Mechanism,
+>>::State<Lanes<<P as Posed>::Number, L>>;
+
+/// The terms of the saddle system.
+type TermsOf<P> = <<P as Posed>::Formulation as Formulation<<P as Posed>::Number>>::Terms;
+
+impl<P: Solvable, const L: usize> LaneEquations<P, L> {
     pub(super) fn zeros() -> Self {
         Self {
             constants: Array::zeros(),
             coefficients: Array::zeros(),
             pivot: Lanes::one(),
-            terms: PhantomData,
         }
     }
 
     /// Takes the equations of one mechanism into a lane.
-    pub(super) fn put<F: Formulation<T, Terms = E>, A>(
-        &mut self,
-        lane: usize,
-        dynamics: &Dynamics<T, M, F, A, C>,
-    ) {
+    pub(super) fn put(&mut self, lane: usize, dynamics: &Dynamics<P>) {
         let equations = dynamics.own_equations();
         put(&mut self.constants, lane, &equations.constants);
         put(&mut self.coefficients, lane, &equations.coefficients);
     }
 
     /// Takes what depends on the inputs of one mechanism into a lane.
-    pub(super) fn put_inputs<F: Formulation<T, Terms = E>, A>(
-        &mut self,
-        lane: usize,
-        dynamics: &Dynamics<T, M, F, A, C>,
-    ) {
+    pub(super) fn put_inputs(&mut self, lane: usize, dynamics: &Dynamics<P>) {
         put(&mut self.constants, lane, dynamics.own_constants());
     }
 
@@ -64,27 +57,26 @@ impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize>
 
     /// Whether a step has led to numbers in all lanes, with no pivot that vanished on the way.
     #[inline(always)]
-    pub(super) fn are_sound(&self, state: &C::State<Lanes<T, L>>) -> bool {
-        self.pivot.all(|pivot| !vanishes::<T, E>(pivot))
-            && unless_finite(state).all(|x| x == T::zero())
+    pub(super) fn are_sound(&self, state: &StateOfAll<P, L>) -> bool {
+        self.pivot
+            .all(|pivot| !vanishes::<P::Number, TermsOf<P>>(pivot))
+            && unless_finite(state).all(|x| x == P::Number::zero())
     }
 
     /// The same in one lane.
-    pub(super) fn is_sound(&self, lane: usize, state: &C::State<Lanes<T, L>>) -> bool {
+    pub(super) fn is_sound(&self, lane: usize, state: &StateOfAll<P, L>) -> bool {
         let pivot = self.pivot.lane(lane);
-        pivot.is_some_and(|pivot| !vanishes::<T, E>(pivot))
-            && unless_finite(state).lane(lane) == Some(T::zero())
+        pivot.is_some_and(|pivot| !vanishes::<P::Number, TermsOf<P>>(pivot))
+            && unless_finite(state).lane(lane) == Some(P::Number::zero())
     }
 }
 
 copied! {
-    [T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize]
-        LaneEquations<T, M, C, E, L>;
+    [P: Solvable, const L: usize] LaneEquations<P, L>;
 }
 
 opaque! {
-    [T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize]
-        LaneEquations<T, M, C, E, L>, "LaneEquations";
+    [P: Solvable, const L: usize] LaneEquations<P, L>, "LaneEquations";
 }
 
 /// Zero in lanes where all numbers are finite, else NaN.
@@ -95,10 +87,8 @@ fn unless_finite<T: Real, X: Vector<Lanes<T, L>>, const L: usize>(state: &X) -> 
     sum
 }
 
-impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize> System<Lanes<T, L>>
-    for LaneEquations<T, M, C, E, L>
-{
-    type State = C::State<Lanes<T, L>>;
+impl<P: Solvable<Number = T>, T: Real, const L: usize> System<Lanes<T, L>> for LaneEquations<P, L> {
+    type State = StateOfAll<P, L>;
 
     #[inline(always)]
     fn rates(&mut self, time: Lanes<T, L>, state: &Self::State) -> Result<Self::State, Fault> {
@@ -116,7 +106,7 @@ impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize> System<
     ) -> Result<(), Fault> {
         let (constants, coefficients) = (&self.constants, &self.coefficients);
         let mut multipliers = Array::zeros();
-        let pivot = C::rates_into::<Lanes<T, L>, E>(
+        let pivot = P::Coordinates::rates_into::<Lanes<T, L>, TermsOf<P>>(
             constants,
             coefficients,
             time,
@@ -134,8 +124,9 @@ impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize> System<
     }
 }
 
-impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize> SecondOrder<Lanes<T, L>>
-    for LaneEquations<T, M, C, E, L>
+impl<P, T: Real, const L: usize> SecondOrder<Lanes<T, L>> for LaneEquations<P, L>
+where
+    P: Solvable<Number = T>,
 {
     #[inline(always)]
     fn with_new_velocities(
@@ -145,6 +136,6 @@ impl<T: Real, M: Mechanism, C: Coordinates<M>, E: Terms, const L: usize> SecondO
         step: Lanes<T, L>,
         rates: &mut Self::State,
     ) {
-        C::with_new_velocities(&self.constants, time, state, step, rates);
+        P::Coordinates::with_new_velocities(&self.constants, time, state, step, rates);
     }
 }

@@ -1,30 +1,24 @@
 //! A step of all lanes at once, and of those apart that it does not fit.
 
 use super::ensemble::Ensemble;
-use super::equations::LaneEquations;
+use super::equations::{LaneEquations, StateOfAll};
 use super::exchange::{put_state, state_of};
 use super::number::Lanes;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, Solvable, State};
 use crate::error::{Fault, SimulationError, Unheeding};
-use crate::formulation::Formulation;
 use crate::integrate::{OneStep, Slopes, StepStart, System};
 use crate::math::scalar::{Real, Scalar as _};
-use crate::measure::load::NoForces;
 use crate::mechanism::coordinates::Coordinates;
-use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::kernels::InputsOf;
 use crate::mechanism::turns;
 use crate::nonsmooth::described::refuse_limits;
 use crate::run::stepper::end_of_step;
 use crate::state::vector::Vector as _;
 
-impl<T, M, F, K, C, const L: usize> Ensemble<T, M, F, K, C, L>
+impl<P, T: Real, K, const L: usize> Ensemble<P, K, L>
 where
-    T: Real,
-    M: Mechanism,
-    F: Formulation<T>,
-    K: OneStep<T, Dynamics<T, M, F, NoForces, C>>
-        + OneStep<Lanes<T, L>, LaneEquations<T, M, C, F::Terms, L>>,
-    C: Coordinates<M>,
+    P: Solvable<Number = T>,
+    K: OneStep<T, Dynamics<P>> + OneStep<Lanes<T, L>, LaneEquations<P, L>>,
 {
     /// Moves all lanes that go on by one step of `dt` (s). Where none does, nothing is moved, and
     /// the time stays.
@@ -36,15 +30,15 @@ where
     /// that lane ([`Ensemble::stopped`]) and is no error here.
     pub fn step(&mut self, dt: T) -> Result<(), Fault> {
         if !self.passes_limits {
-            refuse_limits::<M>(Unheeding::Ensemble)?;
+            refuse_limits::<P::Mechanism>(Unheeding::Ensemble)?;
         }
-        let clock = end_of_step::<T, M>(&self.clock, dt)?;
+        let clock = end_of_step::<T, P::Mechanism>(&self.clock, dt)?;
         if self.going == 0 {
             return Ok(());
         }
         let next = self.at_once(dt)?;
         let normalised = if self.equations.are_sound(&next) {
-            C::normalised_near(&next)
+            P::Coordinates::normalised_near(&next)
         } else {
             None
         };
@@ -66,14 +60,14 @@ where
     /// Counts the turns of angles, lane by lane.
     #[cold]
     #[inline(never)]
-    fn count(&mut self, before: &C::State<Lanes<T, L>>, dt: T) {
+    fn count(&mut self, before: &StateOfAll<P, L>, dt: T) {
         for (lane, dynamics) in self.dynamics.iter().enumerate() {
-            let mut to: C::State<T> = state_of(&self.state, lane);
+            let mut to: State<P> = state_of(&self.state, lane);
             let turned = to.turns().last().copied();
             if turned.is_none_or(|turned| turned <= T::constant(turns::FAR)) {
                 continue;
             }
-            let from: C::State<T> = state_of(before, lane);
+            let from: State<P> = state_of(before, lane);
             dynamics.count_turns(&from, dt, &mut to);
             put_state(&mut self.state, lane, &to);
         }
@@ -81,7 +75,7 @@ where
 
     /// The end of a step in all lanes, as it comes out.
     #[inline(never)]
-    fn at_once(&mut self, dt: T) -> Result<C::State<Lanes<T, L>>, Fault> {
+    fn at_once(&mut self, dt: T) -> Result<StateOfAll<P, L>, Fault> {
         let (time, step) = (Lanes::splat(self.time()), Lanes::splat(dt));
         let (equations, state) = (&mut self.equations, &self.state);
         equations.begin();
@@ -102,7 +96,7 @@ where
     /// What follows a step lane by lane: those in which it is sound are normalised, the others take
     /// it alone, and stop where that is refused.
     #[inline(never)]
-    fn apart(&mut self, mut next: C::State<Lanes<T, L>>, dt: T) {
+    fn apart(&mut self, mut next: StateOfAll<P, L>, dt: T) {
         let (time, before) = (self.clock.time(), self.going);
         let lanes = self.dynamics.iter_mut().zip(&mut self.stopped);
         for (lane, (dynamics, stopped)) in lanes.enumerate() {
@@ -115,7 +109,7 @@ where
                 put_state(&mut next, lane, &state);
                 continue;
             }
-            let mut state: C::State<T> = state_of(&self.state, lane);
+            let mut state: State<P> = state_of(&self.state, lane);
             match alone(&self.scheme, dynamics, (time, &mut state), dt) {
                 Ok(()) => put_state(&mut next, lane, &state),
                 Err(fault) => {
@@ -138,28 +132,25 @@ where
     ///
     /// # Errors
     /// As [`Ensemble::step`] and [`Ensemble::set_inputs`].
-    pub fn step_with(&mut self, inputs: &[M::Inputs<T>; L], dt: T) -> Result<(), Fault> {
+    pub fn step_with(
+        &mut self,
+        inputs: &[InputsOf<P::Mechanism, P::Number>; L],
+        dt: T,
+    ) -> Result<(), Fault> {
         self.set_inputs(inputs)?;
         self.step(dt)
     }
 }
 
 /// A step as a [`Stepper`](crate::Stepper) takes it.
-fn alone<T, M, F, K, C>(
+fn alone<P: Solvable, K: OneStep<P::Number, Dynamics<P>>>(
     scheme: &K,
-    dynamics: &mut Dynamics<T, M, F, NoForces, C>,
-    (time, state): (T, &mut C::State<T>),
-    dt: T,
-) -> Result<(), Fault>
-where
-    T: Real,
-    M: Mechanism,
-    F: Formulation<T>,
-    K: OneStep<T, Dynamics<T, M, F, NoForces, C>>,
-    C: Coordinates<M>,
-{
-    if !C::IS_RELATIVE {
-        C::check(state)?;
+    dynamics: &mut Dynamics<P>,
+    (time, state): (P::Number, &mut State<P>),
+    dt: P::Number,
+) -> Result<(), Fault> {
+    if !P::Coordinates::IS_RELATIVE {
+        P::Coordinates::check(state)?;
     }
     scheme.step(dynamics, time, state, dt)
 }

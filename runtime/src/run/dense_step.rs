@@ -2,29 +2,26 @@
 
 use core::fmt::{self, Debug};
 
+use crate::dynamics::{Bodies, Solvable, State};
 use crate::error::{Fault, Unheeding};
-use crate::formulation::Formulation;
 use crate::integrate::{Scheme, StepWithin, System as _};
-use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
-use crate::mechanism::kernels::Mechanism;
+use crate::math::scalar::{Real as _, Scalar as _};
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::run::stepper::{Stepper, Steps};
 use crate::stepping::followed::bodies_by_halves;
 
 /// A step that was taken by [`Stepper::step_dense`], for [`Stepper::within`].
-pub struct DenseStep<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> {
-    step: StepWithin<S, C::State<S>, K>,
-    start: S,
-    end: S,
-    near: M::State<S>,
+pub struct DenseStep<P: Solvable, K: Scheme<P::Number>> {
+    step: StepWithin<P::Number, State<P>, K>,
+    start: P::Number,
+    end: P::Number,
+    near: Bodies<P>,
 }
 
-impl<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> DenseStep<S, M, K, C> {
+impl<P: Solvable, K: Scheme<P::Number>> DenseStep<P, K> {
     /// The state after a part of the step; its end as the step has it.
-    pub(super) fn at(&self, part: S) -> C::State<S> {
-        if part == S::one() {
+    pub(super) fn at(&self, part: P::Number) -> State<P> {
+        if part == P::Number::one() {
             *self.step.end()
         } else {
             self.step.at(part)
@@ -33,7 +30,7 @@ impl<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> DenseStep<S, M, K, 
 }
 
 /// The interval.
-impl<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> Debug for DenseStep<S, M, K, C> {
+impl<P: Solvable, K: Scheme<P::Number>> Debug for DenseStep<P, K> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("DenseStep")
             .field("start", &self.start)
@@ -42,15 +39,7 @@ impl<S: Real, M: Mechanism, K: Scheme<S>, C: Coordinates<M>> Debug for DenseStep
     }
 }
 
-impl<S, M, F, K, A, C> Stepper<S, M, F, K, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    K: Steps<S, M, F, C, A>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<P: Solvable, K: Steps<P>> Stepper<P, K> {
     /// Moves the state by one step of `dt` (s), and hands over the step, to be asked by
     /// [`Stepper::within`]. It needs no heap.
     ///
@@ -83,11 +72,11 @@ where
     /// and time are then as before.
     pub fn step_dense(
         &mut self,
-        state: &mut C::State<S>,
-        dt: S,
-    ) -> Result<DenseStep<S, M, K, C>, Fault> {
+        state: &mut State<P>,
+        dt: P::Number,
+    ) -> Result<DenseStep<P, K>, Fault> {
         let mut step = self.ahead(state, dt)?;
-        let mut next = step.at(S::one());
+        let mut next = step.at(P::Number::one());
         self.dynamics.follow(state, dt, &mut next);
         self.end_step(state, next, dt)?;
         step.end = self.time();
@@ -97,9 +86,9 @@ where
     /// A step of `dt` (s) from a state, which stays where it is.
     pub(super) fn ahead(
         &mut self,
-        state: &C::State<S>,
-        dt: S,
-    ) -> Result<DenseStep<S, M, K, C>, Fault> {
+        state: &State<P>,
+        dt: P::Number,
+    ) -> Result<DenseStep<P, K>, Fault> {
         if let Some(first) = self.dynamics.tracked().first() {
             return Err(Fault::LimitsLeftOut {
                 joint: first.interaction.name(),
@@ -120,17 +109,18 @@ where
     /// The bodies after a part of a step, with Euler parameters of length 1.
     pub(super) fn bodies_within(
         &self,
-        step: &DenseStep<S, M, K, C>,
-        part: S,
-    ) -> Result<M::State<S>, Fault> {
+        step: &DenseStep<P, K>,
+        part: P::Number,
+    ) -> Result<Bodies<P>, Fault> {
         let time = part * (step.end - step.start);
         let (state, near) = (step.at(part), &step.near);
         let (mut bodies, is_known) = self.dynamics.bodies_after(&state, (time, near));
         if !is_known {
-            let at = |_: &mut &_, time: S| Ok(step.at(time.quotient(step.end - step.start)));
-            bodies = bodies_by_halves(&self.dynamics, (S::zero(), near), time, at)?;
+            let at =
+                |_: &mut &_, time: P::Number| Ok(step.at(time.quotient(step.end - step.start)));
+            bodies = bodies_by_halves(&self.dynamics, (P::Number::zero(), near), time, at)?;
         }
-        Ok(with_unit_orientations::<S, M>(&bodies))
+        Ok(with_unit_orientations::<P::Number, P::Mechanism>(&bodies))
     }
 
     /// The bodies at a time (s) within a step of this stepper, by the interpolant of the method:
@@ -138,7 +128,7 @@ where
     ///
     /// # Errors
     /// [`Fault::OutsideTrajectory`].
-    pub fn within(&self, step: &DenseStep<S, M, K, C>, time: S) -> Result<M::State<S>, Fault> {
+    pub fn within(&self, step: &DenseStep<P, K>, time: P::Number) -> Result<Bodies<P>, Fault> {
         if !(step.start <= time && time <= step.end) {
             return Err(Fault::OutsideTrajectory {
                 time: time.to_f64(),
@@ -147,7 +137,7 @@ where
             });
         }
         let part = if time == step.end {
-            S::one()
+            P::Number::one()
         } else {
             (time - step.start).quotient(step.end - step.start)
         };

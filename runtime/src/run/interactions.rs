@@ -1,25 +1,19 @@
 //! What a user says of limits, dry friction, brakes and clutches in a run.
 
-use crate::dynamics::Problem;
-use crate::formulation::Formulation;
+use crate::dynamics::{Solvable, WithForces, WithInteractions};
 use crate::integrate::Method;
 use crate::math::scalar::Real;
 use crate::measure::interacting::{Interacting, Unlimited};
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
+use crate::measure::load::AppliedForces as _;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::described::Beside;
 use crate::nonsmooth::interaction::Interaction;
-use crate::run::simulation::{Simulation, Solving};
+use crate::run::simulation::Simulation;
 
-impl<'a, S, M, F, I, A, C, H> Simulation<'a, Problem<S, M, F, A, C>, I, H>
+impl<'a, P, S: Real, M: Mechanism, I, H> Simulation<'a, P, I, H>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
+    P: Solvable<Number = S, Mechanism = M>,
     I: Method<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
 {
     /// Adds limits, dry friction, brakes and clutches, which handlers and observers call by
     /// [handles](Interaction::handles). See [`guide::contact`](mod@crate::guide::contact).
@@ -66,11 +60,16 @@ where
     pub fn interactions<const K: usize, const ALL: usize>(
         self,
         interactions: [Interaction<S, M>; K],
-    ) -> Solving<'a, S, M, F, I, Interacting<S, M, A, ALL>, C, H>
+    ) -> Simulation<'a, WithInteractions<P, ALL>, I, H>
     where
         M: Beside<K, ALL>,
     {
-        const { assert!(!A::INTERACTS, "`interactions` are said once, in one list") };
+        const {
+            assert!(
+                !P::Forces::INTERACTS,
+                "`interactions` are said once, in one list"
+            )
+        };
         self.exchange(|forces| Interacting::new(forces, M::beside(interactions)))
     }
 
@@ -103,7 +102,7 @@ where
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn without_limits(self) -> Solving<'a, S, M, F, I, Unlimited<A>, C, H> {
+    pub fn without_limits(self) -> Simulation<'a, WithForces<P, Unlimited<P::Forces>>, I, H> {
         self.exchange(Unlimited)
     }
 }

@@ -9,11 +9,11 @@ use core::ops::{ControlFlow, RangeInclusive};
 
 use self::motion::Motion;
 use crate::constraints::projection::Projection;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Bodies, Dynamics, Posed, Problem, Solvable, WithForces};
 use crate::error::{Fault, LeavesOut, SimulationError};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
-use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
+use crate::measure::load::{ForceLaw, Loads, NoForces};
 use crate::mechanism::kernels::{Mechanism, bodies_alone};
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Warnings;
@@ -50,16 +50,18 @@ use crate::state::vector::{Array, StateParts};
 /// equations are independent; where some are redundant, [`Penalty`](crate::Penalty) or
 /// [`AugmentedLagrangian`](crate::AugmentedLagrangian), with accelerations that are exact up to the
 /// compliance and forces that are shared among redundant equations.
-pub struct KinematicAnalysis<'a, S: Real, M: Mechanism, F, A = NoForces> {
-    mechanism: &'a M,
-    formulation: F,
-    forces: A,
-    initial: Option<M::State<S>>,
-    projection: Projection<S>,
+///
+/// `P` is the [`Problem`]. Its coordinates do not matter: positions are those of the bodies.
+pub struct KinematicAnalysis<'a, P: Posed> {
+    mechanism: &'a P::Mechanism,
+    formulation: P::Formulation,
+    forces: P::Forces,
+    initial: Option<Bodies<P>>,
+    projection: Projection<P::Number>,
     heeds_limits: bool,
 }
 
-impl<S: Real, M: Mechanism, F: Clone, A: Clone> Clone for KinematicAnalysis<'_, S, M, F, A> {
+impl<P: Posed<Formulation: Clone, Forces: Clone>> Clone for KinematicAnalysis<'_, P> {
     fn clone(&self) -> Self {
         Self {
             formulation: self.formulation.clone(),
@@ -70,10 +72,10 @@ impl<S: Real, M: Mechanism, F: Clone, A: Clone> Clone for KinematicAnalysis<'_, 
 }
 
 /// The name of the mechanism, and the formulation.
-impl<S: Real, M: Mechanism, F: Debug, A> Debug for KinematicAnalysis<'_, S, M, F, A> {
+impl<P: Posed<Formulation: Debug>> Debug for KinematicAnalysis<'_, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("KinematicAnalysis")
-            .field("mechanism", &M::REPORT.name)
+            .field("mechanism", &P::Mechanism::REPORT.name)
             .field("formulation", &self.formulation)
             .finish_non_exhaustive()
     }
@@ -118,7 +120,7 @@ impl<S, X> KinematicReport<S, X> {
 pub type KinematicResult<S, M, E = SimulationError<<M as Mechanism>::State<S>>> =
     Result<KinematicReport<S, <M as Mechanism>::State<S>>, E>;
 
-impl<'a, S: Real, M: Mechanism, F: Formulation<S>> KinematicAnalysis<'a, S, M, F> {
+impl<'a, M: Mechanism, F: Formulation<S>, S: Real> KinematicAnalysis<'a, Problem<M, F, S>> {
     /// An analysis from the pose that the attributes describe, without further forces.
     #[must_use]
     pub fn new(mechanism: &'a M, formulation: F) -> Self {
@@ -133,17 +135,17 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>> KinematicAnalysis<'a, S, M, F
     }
 }
 
-impl<'a, S: Real, M: Mechanism, F: Formulation<S>, A> KinematicAnalysis<'a, S, M, F, A> {
+impl<'a, P: Posed> KinematicAnalysis<'a, P> {
     /// Looks for the first pose near this state, instead of the described one.
     #[must_use]
-    pub fn initial_state(mut self, state: M::State<S>) -> Self {
+    pub fn initial_state(mut self, state: Bodies<P>) -> Self {
         self.initial = Some(state);
         self
     }
 
     /// Tolerance and iterations of Newton's method.
     #[must_use]
-    pub fn projection(mut self, projection: Projection<S>) -> Self {
+    pub fn projection(mut self, projection: Projection<P::Number>) -> Self {
         self.projection = projection;
         self
     }
@@ -159,9 +161,9 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>, A> KinematicAnalysis<'a, S, M
     /// `|time, state, loads| loads.force(body, ...)`. The motion does not depend on them, reactions
     /// and driving efforts do.
     #[must_use]
-    pub fn forces<G>(self, law: G) -> KinematicAnalysis<'a, S, M, F, ForceLaw<G>>
+    pub fn forces<G>(self, law: G) -> KinematicAnalysis<'a, WithForces<P, ForceLaw<G>>>
     where
-        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+        G: Fn(P::Number, &Bodies<P>, &mut Loads<'_, P::Number, P::Mechanism>),
     {
         KinematicAnalysis {
             mechanism: self.mechanism,
@@ -174,12 +176,9 @@ impl<'a, S: Real, M: Mechanism, F: Formulation<S>, A> KinematicAnalysis<'a, S, M
     }
 }
 
-impl<S, M, F, A> KinematicAnalysis<'_, S, M, F, A>
+impl<P, S: Real, M: Mechanism> KinematicAnalysis<'_, P>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
+    P: Solvable<Number = S, Mechanism = M>,
 {
     /// Follows the motion over an interval of time (s) and shows it to `observe` at the start, at
     /// the reporting times and at the end. An observer that returns `ControlFlow::Break(())` stops

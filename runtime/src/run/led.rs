@@ -3,17 +3,14 @@
 use core::fmt::{self, Debug};
 use core::ops::RangeInclusive;
 
-use crate::dynamics::{Dynamics, Posed, Problem, Solvable};
+use crate::dynamics::{Bodies, Carrying, Dynamics, Posed, Solvable};
 use crate::error::setting::interval;
 use crate::error::{Fault, SimulationError};
-use crate::formulation::Formulation;
 use crate::integrate::{Integrator, Method};
 use crate::math::scalar::{Real, Scalar as _};
-use crate::measure::interacting::Heeding;
-use crate::measure::load::{AppliedForces, Led};
+use crate::measure::load::Led;
 use crate::measure::view::View;
 use crate::mechanism::at::At;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::run::driver::{Course, Driver};
 use crate::run::events::context::Event;
@@ -24,7 +21,7 @@ use crate::run::output::IntoFlow;
 use crate::run::pulled::{Pulled, Way};
 use crate::run::report::RunReport;
 use crate::run::sample::Sample;
-use crate::run::simulation::{Setup, Solving};
+use crate::run::simulation::{Setup, Simulation};
 use crate::state::vector::{Array, StateParts as _};
 use crate::stepping::march::March;
 use crate::stepping::marching::Marching as _;
@@ -47,35 +44,20 @@ pub enum Reached {
     End,
 }
 
-type State<P> = <<P as Posed>::Mechanism as Mechanism>::State<<P as Posed>::Number>;
-type Failed<P> = SimulationError<State<P>>;
+type Failed<P> = SimulationError<Bodies<P>>;
 type OnTheWay<'r, P> = (
     Driver<'r, <P as Posed>::Number, <P as Posed>::Mechanism>,
     &'r mut Way<<P as Posed>::Number, <P as Posed>::Mechanism>,
 );
 /// A run that is led, or why it does not begin.
 type BeginResult<'a, P, I, H> = Result<Run<'a, P, I, H>, Failed<P>>;
-type Carried<P> = Heeding<<P as Posed>::Number, <P as Posed>::Mechanism, Led<<P as Posed>::Forces>>;
-type Equations<P> = Dynamics<
-    <P as Posed>::Number,
-    <P as Posed>::Mechanism,
-    <P as Posed>::Formulation,
-    Carried<P>,
-    <P as Posed>::Coordinates,
->;
-type MarchOf<P, I> = March<
-    <P as Posed>::Number,
-    <P as Posed>::Mechanism,
-    <P as Posed>::Formulation,
-    Carried<P>,
-    <P as Posed>::Coordinates,
-    I,
->;
+/// What a run moves that owns its forces.
+type Owned<P> = Carrying<P, Led<<P as Posed>::Forces>>;
 
 /// Methods that move a [`Run`] of a problem `P`: all [`Integrator`]s do.
-pub trait Leads<P: Solvable>: Integrator<P::Number, Equations<P>> {}
+pub trait Leads<P: Solvable>: Integrator<P::Number, Dynamics<Owned<P>>> {}
 
-impl<P: Solvable, I: Integrator<P::Number, Equations<P>>> Leads<P> for I {}
+impl<P: Solvable, I: Integrator<P::Number, Dynamics<Owned<P>>>> Leads<P> for I {}
 
 /// A run that its caller leads: from step to step, or from time to time. It is begun by
 /// [`Simulation::begin`](crate::Simulation::begin).
@@ -120,7 +102,7 @@ impl<P: Solvable, I: Integrator<P::Number, Equations<P>>> Leads<P> for I {}
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Run<'a, P: Solvable, I: Leads<P>, H = NothingHappens> {
-    march: MarchOf<P, I>,
+    march: March<Owned<P>, I>,
     happenings: H,
     switching: Option<Switching<P::Number, P::Mechanism>>,
     course: Course<P::Number, P::Mechanism>,
@@ -141,15 +123,11 @@ impl<P: Solvable, I: Leads<P>, H> Debug for Run<'_, P, I, H> {
     }
 }
 
-impl<'a, S, M, F, I, A, C, H> Solving<'a, S, M, F, I, A, C, H>
+impl<'a, P, I, H> Simulation<'a, P, I, H>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    I: Method<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    H: Happenings<S, M>,
+    P: Solvable,
+    I: Method<P::Number>,
+    H: Happenings<P::Number, P::Mechanism>,
 {
     /// Begins a run over an interval of time (s) that the caller leads, see [`Run`]. Controllers
     /// have been called at its start.
@@ -158,18 +136,18 @@ where
     /// Those of [`Simulation::run`](crate::Simulation::run) at a start. [`Fault::NotLed`] of a
     /// simulation that is [`verified`](crate::Simulation::verified), keeps checkpoints or records a
     /// trajectory.
-    pub fn begin(self, interval: RangeInclusive<S>) -> BeginResult<'a, Problem<S, M, F, A, C>, I, H>
+    pub fn begin(self, interval: RangeInclusive<P::Number>) -> BeginResult<'a, P, I, H>
     where
-        I: Leads<Problem<S, M, F, A, C>>,
+        I: Leads<P>,
     {
         let interval = (*interval.start(), *interval.end());
         let (setup, mut happenings) = (self.setup, self.happenings);
-        let zeros = || M::State::from_parts(Array::zeros(), Array::zeros());
+        let zeros = || Bodies::<P>::from_parts(Array::zeros(), Array::zeros());
         let mut at = At {
             time: interval.0,
             bodies: setup.initial.unwrap_or_else(zeros),
         };
-        let list: &mut dyn Happenings<S, M> = &mut happenings;
+        let list: &mut dyn Happenings<P::Number, P::Mechanism> = &mut happenings;
         let mut is_bare = true;
         let asked = list.each(&mut |_| {
             is_bare = false;
@@ -224,7 +202,7 @@ where
 
     /// The state of the bodies at that time.
     #[must_use]
-    pub fn state(&self) -> &State<P> {
+    pub fn state(&self) -> &Bodies<P> {
         &self.way.at.bodies
     }
 

@@ -102,7 +102,7 @@ pub use post_step::{PostStabilisation, TreeRecovery, VelocityProjection};
 #[cfg(feature = "recorder")]
 pub use record_error::RecordError;
 pub use simulate::Simulate;
-pub use stepper::{InteractingStepper, Steps};
+pub use stepper::Steps;
 #[cfg(feature = "std")]
 pub use trajectory::Trajectory;
 pub use verification::{BodyError, Verification};

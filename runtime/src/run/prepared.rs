@@ -3,7 +3,7 @@
 use crate::assembly::assembled;
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::row_units::characteristic_length;
-use crate::dynamics::{Dynamics, Posed, Problem};
+use crate::dynamics::{Carrying, Dynamics, Posed, Solvable};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{Integrator, Method};
@@ -26,26 +26,16 @@ use crate::run::remembered::take_values;
 use crate::run::simulation::{Setup, Source};
 use crate::stepping::march::settings;
 
-/// The equations that a run moves: with forces `A`, and the limits of the description.
-pub(super) type Moved<S, M, F, A, C> = Dynamics<S, M, F, Heeding<S, M, A>, C>;
-
 /// A run that is about to begin.
-pub(super) struct Prepared<S, M, F, A, C, I>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
-    pub(super) equations: Moved<S, M, F, A, C>,
+pub(super) struct Prepared<P: Solvable, I> {
+    pub(super) equations: Dynamics<P>,
     /// The method for the size of the mechanism.
     pub(super) integrator: I,
-    pub(super) course: Course<S, M>,
+    pub(super) course: Course<P::Number, P::Mechanism>,
     /// Laws that switch, where there are any.
-    pub(super) switching: Option<Switching<S, M>>,
+    pub(super) switching: Option<Switching<P::Number, P::Mechanism>>,
     /// The parameters at the start.
-    pub(super) given: M::Parameters<S>,
+    pub(super) given: <P::Mechanism as Mechanism>::Parameters<P::Number>,
 }
 
 impl<P: Posed, I> Setup<'_, P, I> {
@@ -57,13 +47,10 @@ impl<P: Posed, I> Setup<'_, P, I> {
     }
 }
 
-impl<S, M, F, I, A, C> Setup<'_, Problem<S, M, F, A, C>, I>
+impl<P, S: Real, M: Mechanism, I> Setup<'_, P, I>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
+    P: Solvable<Number = S, Mechanism = M>,
     I: Method<S>,
-    C: Coordinates<M>,
 {
     /// A run with forces and with what happens over an interval (s), from where it goes on, if it
     /// does. Whether nothing happens but what is of the mechanism itself is said beside the list.
@@ -73,9 +60,9 @@ where
         (list, is_bare): (&mut dyn Happenings<S, M>, bool),
         ((start, end), past): ((S, S), Option<&Past<'_, S, M>>),
         at: &mut StateAt<S, M>,
-    ) -> Result<Prepared<S, M, F, B, C, I>, Fault>
+    ) -> Result<Prepared<Carrying<P, B>, I>, Fault>
     where
-        I: Integrator<S, Moved<S, M, F, B, C>>,
+        I: Integrator<S, Dynamics<Carrying<P, B>>>,
     {
         let dynamics = match self.mechanism {
             Source::Mechanism(mechanism) => Dynamics::new(mechanism, self.formulation),
@@ -83,7 +70,7 @@ where
         }?;
         let given = *dynamics.parameters();
         let forces = Heeding::new(forces, &given);
-        let mut dynamics = dynamics.with_forces(forces).coordinates::<C>();
+        let mut dynamics = dynamics.with_forces(forces).coordinates::<P::Coordinates>();
         let described = M::initial_state(dynamics.constants());
         let length = characteristic_length::<S, M>(dynamics.constants(), &described);
         let integrator = self.integrator.for_length(length);
@@ -113,11 +100,11 @@ where
         }
         let monitor = self.is_monitored.then(|| {
             Monitor::new(&constants, at.time, &at.bodies)
-                .of_joints(C::keeps_equations)
+                .of_joints(P::Coordinates::keeps_equations)
                 .over(&integrator)
                 .decaying(self.formulation.decay_rate())
         });
-        let settings = settings::<S, M, F, Heeding<S, M, B>, C, I>(&integrator);
+        let settings = settings::<Carrying<P, B>, I>(&integrator);
         Ok(Prepared {
             course: Course::new(settings, &integrator, hybrid, monitor),
             equations: dynamics,
@@ -151,9 +138,10 @@ where
         if let Some(projection) = self.assemble {
             assembled::<S, M>(&projection, constants, start, &mut state, &described())?;
         }
-        if !self.accepts_any_start || C::IS_RELATIVE {
+        let is_relative = P::Coordinates::IS_RELATIVE;
+        if !self.accepts_any_start || is_relative {
             let interval = (start, end - start);
-            check_start::<S, M>(constants, interval, &state, C::IS_RELATIVE)?;
+            check_start::<S, M>(constants, interval, &state, is_relative)?;
         }
         Ok(state)
     }

@@ -2,13 +2,12 @@
 
 use core::ops::{ControlFlow, RangeInclusive};
 
-use crate::dynamics::{Dynamics, Problem};
+use crate::dynamics::{Carrying, Dynamics, Posed, Solvable};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::integrate::{Integrator, Method};
 use crate::math::scalar::Real;
 use crate::measure::interacting::Heeding;
-use crate::measure::load::{AppliedForces, NoForces};
 use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
@@ -32,17 +31,13 @@ use crate::stepping::marching::Marching as _;
 /// The interval (s) of a run, when it reports, and where it goes on.
 type ToDo<'p, S, M> = ((S, S), Reporting<S>, Option<&'p Past<'p, S, M>>);
 
-/// The integration of a companion.
-type Beside<'f, S, M, F, A, C, I> = March<S, M, F, Heeding<S, M, &'f A>, C, I>;
+/// What a run moves, by forces that it is lent.
+type Lent<'f, P> = Carrying<P, &'f <P as Posed>::Forces>;
 
-impl<S, M, F, I, A, C> Simulation<'_, Problem<S, M, F, A, C>, I, NothingHappens>
+impl<P, S: Real, M: Mechanism, I> Simulation<'_, P, I, NothingHappens>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
+    P: Solvable<Number = S, Mechanism = M>,
     I: Method<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
 {
     /// Runs over an interval of time (s) and shows the state to `observe` at the start, at the
     /// reporting times and at the end. An observer that returns `ControlFlow::Break(())` stops the
@@ -89,7 +84,7 @@ where
         observe: O,
     ) -> RunResult<S, M, R::Error<M::State<S>>>
     where
-        I: Runs<S, M, F, C, A>,
+        I: Runs<P>,
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
@@ -135,7 +130,7 @@ where
         observe: O,
     ) -> RunResult<S, M, R::Error<M::State<S>>>
     where
-        I: Runs<S, M, F, C, A>,
+        I: Runs<P>,
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
@@ -143,14 +138,10 @@ where
     }
 }
 
-impl<S, M, F, I, A, C, E, X> Simulation<'_, Problem<S, M, F, A, C>, I, (E, X)>
+impl<P, S: Real, M: Mechanism, I, E, X> Simulation<'_, P, I, (E, X)>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
+    P: Solvable<Number = S, Mechanism = M>,
     I: Method<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
     (E, X): Happenings<S, M>,
 {
     /// Runs over an interval of time (s) as a simulation does in which nothing happens, with events
@@ -165,7 +156,7 @@ where
         observe: O,
     ) -> RunResult<S, M, R::Error<M::State<S>>>
     where
-        I: Runs<S, M, F, C, A>,
+        I: Runs<P>,
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
@@ -191,7 +182,7 @@ where
         observe: O,
     ) -> RunResult<S, M, R::Error<M::State<S>>>
     where
-        I: Runs<S, M, F, C, A>,
+        I: Runs<P>,
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
@@ -201,25 +192,20 @@ where
     }
 }
 
-impl<S, M, F, I, A, C> Setup<'_, Problem<S, M, F, A, C>, I>
+impl<P, S: Real, M: Mechanism, I> Setup<'_, P, I>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    I: Method<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M>,
+    I: Runs<P>,
 {
     /// Runs with what happens, as it is planned.
     pub(super) fn run_with<O, R>(
         &self,
-        forces: &A,
+        forces: &P::Forces,
         happenings: Option<&mut dyn Happenings<S, M>>,
         plan: impl Plan<S, M>,
         mut observe: O,
     ) -> RunResult<S, M, R::Error<M::State<S>>>
     where
-        I: Runs<S, M, F, C, A>,
         O: FnMut(&Sample<'_, S, M>) -> R,
         R: IntoFlow,
     {
@@ -236,7 +222,11 @@ where
             time: interval.0,
             bodies: self.initial.unwrap_or_else(zeros),
         };
-        let past = plan.past(&self.integrator, &self.formulation, C::IS_RELATIVE);
+        let past = plan.past(
+            &self.integrator,
+            &self.formulation,
+            P::Coordinates::IS_RELATIVE,
+        );
         let report = past.and_then(|past| {
             let plan = (interval, reporting, past.as_ref());
             self.attempt(forces, happenings, plan, &mut observe, &mut last_good)
@@ -246,15 +236,12 @@ where
 
     fn attempt(
         &self,
-        forces: &A,
+        forces: &P::Forces,
         happenings: Option<&mut dyn Happenings<S, M>>,
         (interval, reporting, past): ToDo<'_, S, M>,
         observe: &mut Observer<'_, S, M>,
         last_good: &mut StateAt<S, M>,
-    ) -> Result<RunReport<S, M>, Fault>
-    where
-        I: Runs<S, M, F, C, A>,
-    {
+    ) -> Result<RunReport<S, M>, Fault> {
         let (start, end) = interval;
         let is_unverifiable = self.is_verified && (happenings.is_some() || past.is_some());
         let mut nothing = NothingHappens;
@@ -315,22 +302,21 @@ where
     /// What a companion integrates, by its own method, from the same parameters on.
     fn beside<'f>(
         &self,
-        forces: &'f A,
+        forces: &'f P::Forces,
         integrator: I,
         given: M::Parameters<S>,
-    ) -> Result<Beside<'f, S, M, F, A, C, I>, Fault>
-    where
-        I: Runs<S, M, F, C, A>,
-    {
+    ) -> Result<March<Lent<'f, P>, I>, Fault> {
         let dynamics = Dynamics::of_parameters(given, self.formulation.companion())?;
         let dynamics = dynamics.with_forces(Heeding::new(forces, &given));
-        Ok(March::new(dynamics.coordinates::<C>(), integrator))
+        Ok(March::new(
+            dynamics.coordinates::<P::Coordinates>(),
+            integrator,
+        ))
     }
 }
 
-/// Methods that run a mechanism `M` by a formulation `F`, with forces `A` of a closure and in the
-/// coordinates `C`. It is implemented by every [`Integrator`] of such a system; a function that is
-/// generic over methods asks for it.
+/// Methods that run a problem `P`. It is implemented by every [`Integrator`] of its equations; a
+/// function that is generic over methods asks for it.
 ///
 /// ```
 /// use holonom::{Runs, prelude::*};
@@ -338,31 +324,13 @@ where
 /// fn evaluations<M, I>(mechanism: &M, method: I) -> usize
 /// where
 ///     M: Mechanism,
-///     I: Runs<f64, M, StandardLagrange>,
+///     I: Runs<Problem<M, StandardLagrange>>,
 /// {
 ///     let simulation = Simulation::new(mechanism, StandardLagrange, method);
 ///     let run = simulation.run(0.0..=1.0, every(0.1), |_| ());
 ///     run.map_or(0, |report| report.evaluations)
 /// }
 /// ```
-pub trait Runs<S, M, F, C = <M as Mechanism>::Coordinates, A = NoForces>:
-    for<'f> Integrator<S, Dynamics<S, M, F, Heeding<S, M, &'f A>, C>>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    C: Coordinates<M>,
-    A: AppliedForces<S, M>,
-{
-}
+pub trait Runs<P: Solvable>: for<'f> Integrator<P::Number, Dynamics<Lent<'f, P>>> {}
 
-impl<I, S, M, F, A, C> Runs<S, M, F, C, A> for I
-where
-    I: for<'f> Integrator<S, Dynamics<S, M, F, Heeding<S, M, &'f A>, C>>,
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    C: Coordinates<M>,
-    A: AppliedForces<S, M>,
-{
-}
+impl<P: Solvable, I: for<'f> Integrator<P::Number, Dynamics<Lent<'f, P>>>> Runs<P> for I {}

@@ -41,7 +41,7 @@ pub trait Simulate: Mechanism {
         &self,
         formulation: F,
         integrator: I,
-    ) -> Simulation<'_, Problem<f64, Self, F>, I> {
+    ) -> Simulation<'_, Problem<Self, F>, I> {
         Simulation::new(self, formulation, integrator)
     }
 
@@ -71,7 +71,7 @@ pub trait Simulate: Mechanism {
         &self,
         formulation: F,
         scheme: K,
-    ) -> Result<Stepper<f64, Self, F, K>, Fault> {
+    ) -> Result<Stepper<Problem<Self, F>, K>, Fault> {
         Stepper::new(self, formulation, scheme)
     }
 
@@ -80,7 +80,7 @@ pub trait Simulate: Mechanism {
     fn kinematic_analysis<F: Formulation<f64>>(
         &self,
         formulation: F,
-    ) -> KinematicAnalysis<'_, f64, Self, F> {
+    ) -> KinematicAnalysis<'_, Problem<Self, F>> {
         KinematicAnalysis::new(self, formulation)
     }
 }

@@ -3,7 +3,7 @@
 use core::fmt::{self, Debug};
 
 use crate::constraints::projection::Projection;
-use crate::dynamics::{Posed, Problem};
+use crate::dynamics::{Bodies, Posed, Problem, Solvable, WithCoordinates, WithLaw};
 use crate::formulation::Formulation;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
@@ -24,16 +24,12 @@ pub struct Simulation<'a, P: Posed, I, H = NothingHappens> {
     pub(super) happenings: H,
 }
 
-/// The same by the parts of its problem.
-pub(crate) type Solving<'a, S, M, F, I, A, C, H = NothingHappens> =
-    Simulation<'a, Problem<S, M, F, A, C>, I, H>;
-
 /// All that is said of a simulation, but for forces and for what happens in it.
 pub(super) struct Setup<'a, P: Posed, I> {
     pub(super) mechanism: Source<'a, P::Number, P::Mechanism>,
     pub(super) formulation: P::Formulation,
     pub(super) integrator: I,
-    pub(super) initial: Option<<P::Mechanism as Mechanism>::State<P::Number>>,
+    pub(super) initial: Option<Bodies<P>>,
     pub(super) assemble: Option<Projection<P::Number>>,
     pub(super) projection: Option<Projection<P::Number>>,
     pub(super) stabilisation: Option<&'a dyn PostStabilisation<P::Number, P::Mechanism>>,
@@ -94,11 +90,11 @@ impl<P: Posed<Formulation: Debug>, I: Debug, H> Debug for Simulation<'_, P, I, H
     }
 }
 
-impl<'a, S, M, F, I> Simulation<'a, Problem<S, M, F>, I>
+impl<'a, M, F, S, I> Simulation<'a, Problem<M, F, S>, I>
 where
-    S: Real,
     M: Mechanism,
     F: Formulation<S>,
+    S: Real,
     I: Method<S>,
 {
     /// A simulation from the state that the attributes describe, in the coordinates that the
@@ -138,17 +134,14 @@ where
     }
 }
 
-impl<'a, S, M, F, I, A, C, H> Simulation<'a, Problem<S, M, F, A, C>, I, H>
+impl<'a, P, I, H> Simulation<'a, P, I, H>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    I: Method<S>,
-    C: Coordinates<M>,
+    P: Solvable,
+    I: Method<P::Number>,
 {
     /// Starts from this state.
     #[must_use]
-    pub fn initial_state(mut self, state: M::State<S>) -> Self {
+    pub fn initial_state(mut self, state: Bodies<P>) -> Self {
         self.setup.initial = Some(state);
         self
     }
@@ -163,7 +156,7 @@ where
     /// Corrects the state onto the constraints after every step, and every state that is reported.
     /// Without it a run does so on its way through a singular configuration alone.
     #[must_use]
-    pub fn projection(mut self, projection: Projection<S>) -> Self {
+    pub fn projection(mut self, projection: Projection<P::Number>) -> Self {
         self.setup.projection = Some(projection);
         self.setup.stabilisation = None;
         self
@@ -172,7 +165,10 @@ where
     /// Treats the state after every step, and every state that is reported, in another way than by
     /// a [`Simulation::projection`], see [`PostStabilisation`].
     #[must_use]
-    pub fn post_stabilisation(mut self, stabilisation: &'a dyn PostStabilisation<S, M>) -> Self {
+    pub fn post_stabilisation(
+        mut self,
+        stabilisation: &'a dyn PostStabilisation<P::Number, P::Mechanism>,
+    ) -> Self {
         self.setup.stabilisation = Some(stabilisation);
         self.setup.projection = None;
         self
@@ -192,7 +188,7 @@ where
     /// of the time with literal numbers are known without
     /// ([`ExplicitTime::breaks`](crate::mechanism::ExplicitTime::breaks)).
     #[must_use]
-    pub fn breaks(mut self, instants: &'a [S]) -> Self {
+    pub fn breaks(mut self, instants: &'a [P::Number]) -> Self {
         self.setup.breaks = instants;
         self
     }
@@ -242,10 +238,13 @@ where
         self
     }
 
-    pub(super) fn exchange<A2, C2>(
+    pub(super) fn exchange<Q>(
         self,
-        forces: impl FnOnce(A) -> A2,
-    ) -> Solving<'a, S, M, F, I, A2, C2, H> {
+        forces: impl FnOnce(P::Forces) -> Q::Forces,
+    ) -> Simulation<'a, Q, I, H>
+    where
+        Q: Posed<Mechanism = P::Mechanism, Formulation = P::Formulation, Number = P::Number>,
+    {
         let setup = self.setup;
         Simulation {
             setup: Setup {
@@ -276,17 +275,19 @@ where
     ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.
     #[must_use]
-    pub fn forces<G>(self, law: G) -> Solving<'a, S, M, F, I, A::With<ForceLaw<G>>, C, H>
+    pub fn forces<G>(self, law: G) -> Simulation<'a, WithLaw<P, G>, I, H>
     where
-        A: AppliedForces<S, M>,
-        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+        G: Fn(P::Number, &Bodies<P>, &mut Loads<'_, P::Number, P::Mechanism>),
     {
         self.exchange(|forces| forces.with(ForceLaw(law)))
     }
 
     /// Solves the equations of motion in other coordinates: `.coordinates::<Relative>()`.
     #[must_use]
-    pub fn coordinates<C2: Coordinates<M>>(self) -> Solving<'a, S, M, F, I, A, C2, H> {
+    pub fn coordinates<C>(self) -> Simulation<'a, WithCoordinates<P, C>, I, H>
+    where
+        C: Coordinates<P::Mechanism>,
+    {
         self.exchange(|forces| forces)
     }
 
@@ -301,9 +302,9 @@ where
     /// joints that close loops) and monitor are the same. The monitor looks at the joints that
     /// close loops alone.
     #[must_use]
-    pub fn joint_coordinates(self) -> Solving<'a, S, M, F, I, A, Relative, H>
+    pub fn joint_coordinates(self) -> Simulation<'a, WithCoordinates<P, Relative>, I, H>
     where
-        M: JointCoordinates,
+        P::Mechanism: JointCoordinates,
     {
         self.coordinates()
     }
@@ -311,14 +312,16 @@ where
     /// Solves the equations of motion in absolute coordinates: of every body position, Euler
     /// parameters and velocities.
     #[must_use]
-    pub fn absolute_coordinates(self) -> Solving<'a, S, M, F, I, A, Absolute, H> {
+    pub fn absolute_coordinates(self) -> Simulation<'a, WithCoordinates<P, Absolute>, I, H> {
         self.coordinates()
     }
 
     /// Absolute coordinates with other rates of Euler parameters.
     #[doc(hidden)]
     #[must_use]
-    pub fn orientation<P: Orientation>(self) -> Solving<'a, S, M, F, I, A, Absolute<P>, H> {
+    pub fn orientation<O: Orientation>(
+        self,
+    ) -> Simulation<'a, WithCoordinates<P, Absolute<O>>, I, H> {
         self.coordinates()
     }
 }

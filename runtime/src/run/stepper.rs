@@ -3,7 +3,10 @@
 use core::fmt::{self, Debug};
 
 use crate::constraints::projection::Projection;
-use crate::dynamics::{Dynamics, Iterations};
+use crate::dynamics::{
+    Bodies, Dynamics, Iterations, Posed, Problem, Solvable, State, UnderWay, WithCoordinates,
+    WithForces, WithInteractions, WithLaw,
+};
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::formulation::Formulation;
@@ -15,24 +18,23 @@ use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
 use crate::measure::view::View;
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
-use crate::mechanism::kernels::{Mechanism, Orientation};
+use crate::mechanism::kernels::{InputsOf, Mechanism, Orientation};
 use crate::nonsmooth::described::Beside;
 use crate::nonsmooth::interaction::Interaction;
 
-/// The equations that a [`Stepper`] moves: with forces `A`, and the limits of the description.
-type Prepared<S, M, F, A, C> = Dynamics<S, M, F, Heeding<S, M, A>, C>;
-
 /// A mechanism, a formulation and a one-step method, prepared: takes one step at a time.
+///
+/// `P` is the [`Problem`] that is solved, `K` the method.
 ///
 /// A step has a fixed number of evaluations ([`Rk4`](crate::Rk4) 4,
 /// [`DormandPrince5`](crate::integrate::DormandPrince5) 6), allocates nothing and does not panic.
 ///
-/// `C` says in which coordinates the equations of motion are solved: those that the attribute of
-/// the mechanism names, or others that are asked for. In absolute coordinates a state is one of
-/// the bodies. In relative ones it is a [`JointCoordinates::JointState`]: a start
-/// is set in a state of the bodies, by handle as ever, and [`Stepper::state_of`] takes it over;
-/// what is to be read is read of [`Stepper::bodies`]. Joints of the tree cannot open there;
-/// equations that close loops drift or are stabilised, as the formulation has it.
+/// The equations of motion are solved in the coordinates that the attribute of the mechanism names,
+/// or in others that are asked for. In absolute coordinates a state is one of the bodies. In
+/// relative ones it is a [`JointCoordinates::JointState`]: a start is set in a state of the bodies,
+/// by handle as ever, and [`Stepper::state_of`] takes it over; what is to be read is read of
+/// [`Stepper::bodies`]. Joints of the tree cannot open there; equations that close loops drift or
+/// are stabilised, as the formulation has it.
 ///
 /// It has no warnings. A step over the zero of a law that switches is of first order. So is one in
 /// which two points pass each other closely, where a force acts along their line
@@ -64,31 +66,16 @@ type Prepared<S, M, F, A, C> = Dynamics<S, M, F, Heeding<S, M, A>, C>;
 /// assert!(view.angle(hinge) < 0.4 && view.violation() < 1e-30);
 /// # Ok::<(), Fault>(())
 /// ```
-pub struct Stepper<
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    K,
-    A: AppliedForces<S, M> = NoForces,
-    C: Coordinates<M> = <M as Mechanism>::Coordinates,
-> {
-    pub(crate) dynamics: Prepared<S, M, F, A, C>,
+pub struct Stepper<P: Solvable, K> {
+    pub(crate) dynamics: Dynamics<UnderWay<P>>,
     pub(crate) scheme: K,
-    pub(super) clock: Clock<S>,
-    projection: Option<Projection<S>>,
+    pub(super) clock: Clock<P::Number>,
+    projection: Option<Projection<P::Number>>,
     /// Whether the settings of interactions were accepted.
     pub(super) has_begun: bool,
 }
 
-impl<S, M, F, K, A, C> Clone for Stepper<S, M, F, K, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    K: Copy,
-    A: AppliedForces<S, M> + Clone,
-    C: Coordinates<M>,
-{
+impl<P: Solvable<Forces: Clone>, K: Copy> Clone for Stepper<P, K> {
     fn clone(&self) -> Self {
         Self {
             dynamics: self.dynamics.clone(),
@@ -101,32 +88,20 @@ where
 }
 
 /// The name of the mechanism, and the method.
-impl<S, M, F, K, A, C> Debug for Stepper<S, M, F, K, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    K: Debug,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<P: Solvable, K: Debug> Debug for Stepper<P, K> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Stepper")
-            .field("mechanism", &M::REPORT.name)
+            .field("mechanism", &P::Mechanism::REPORT.name)
             .field("method", &self.scheme)
             .finish_non_exhaustive()
     }
 }
 
-/// A [`Stepper`] with `N` interactions, the limits of the description among them.
-pub type InteractingStepper<S, M, F, K, A, C, const N: usize> =
-    Stepper<S, M, F, K, Interacting<S, M, A, N>, C>;
-
-impl<S, M, F, K> Stepper<S, M, F, K, NoForces, M::Coordinates>
+impl<M, F, S, K> Stepper<Problem<M, F, S>, K>
 where
-    S: Real,
     M: Mechanism,
     F: Formulation<S>,
+    S: Real,
     K: Scheme<S>,
 {
     /// Prepares the kernels in the coordinates that the attribute of the mechanism names; the time
@@ -147,19 +122,11 @@ where
     }
 }
 
-impl<S, M, F, K, A, C> Stepper<S, M, F, K, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    K: Scheme<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
-    fn exchange<A2: AppliedForces<S, M>, C2: Coordinates<M>>(
+impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
+    fn exchange<Q: Solvable<Number = P::Number>>(
         self,
-        exchange: impl FnOnce(Prepared<S, M, F, A, C>) -> Prepared<S, M, F, A2, C2>,
-    ) -> Stepper<S, M, F, K, A2, C2> {
+        exchange: impl FnOnce(Dynamics<UnderWay<P>>) -> Dynamics<UnderWay<Q>>,
+    ) -> Stepper<Q, K> {
         Stepper {
             dynamics: exchange(self.dynamics),
             scheme: self.scheme,
@@ -170,34 +137,21 @@ where
     }
 
     /// With other forces, or other interactions.
-    fn exchange_forces<A2: AppliedForces<S, M>>(
+    fn exchange_forces<A: AppliedForces<P::Number, P::Mechanism>>(
         self,
-        exchange: impl FnOnce(A) -> A2,
-    ) -> Stepper<S, M, F, K, A2, C> {
+        exchange: impl FnOnce(P::Forces) -> A,
+    ) -> Stepper<WithForces<P, A>, K> {
         let parameters = *self.dynamics.parameters();
-        let renew = |old: Heeding<S, M, A>| Heeding::new(exchange(old.into_forces()), &parameters);
-        self.exchange(|dynamics| dynamics.exchange_forces(renew))
-    }
-
-    /// Begins at a time (s).
-    #[must_use]
-    pub fn starting_at(mut self, time: S) -> Self {
-        self.clock = Clock::at(time);
-        self
-    }
-
-    /// Corrects the state onto the constraints after every step.
-    #[must_use]
-    pub fn projection(mut self, projection: Projection<S>) -> Self {
-        self.projection = Some(projection);
-        self
+        self.exchange(|dynamics| {
+            dynamics.exchange_forces(|old| Heeding::new(exchange(old.into_forces()), &parameters))
+        })
     }
 
     /// Applies forces as a function of time and state of the bodies, see [`Loads`].
     #[must_use]
-    pub fn forces<G>(self, law: G) -> Stepper<S, M, F, K, A::With<ForceLaw<G>>, C>
+    pub fn forces<G>(self, law: G) -> Stepper<WithLaw<P, G>, K>
     where
-        G: Fn(S, &M::State<S>, &mut Loads<'_, S, M>),
+        G: Fn(P::Number, &Bodies<P>, &mut Loads<'_, P::Number, P::Mechanism>),
     {
         self.exchange_forces(|forces| forces.with(ForceLaw(law)))
     }
@@ -230,53 +184,75 @@ where
     #[must_use]
     pub fn interactions<const N: usize, const ALL: usize>(
         self,
-        interactions: [Interaction<S, M>; N],
-    ) -> InteractingStepper<S, M, F, K, A, C, ALL>
+        interactions: [Interaction<P::Number, P::Mechanism>; N],
+    ) -> Stepper<WithInteractions<P, ALL>, K>
     where
-        M: Beside<N, ALL>,
+        P::Mechanism: Beside<N, ALL>,
     {
-        const { assert!(!A::INTERACTS, "`interactions` are said once, in one list") };
-        self.exchange_forces(|forces| Interacting::new(forces, M::beside(interactions)))
+        const {
+            assert!(
+                !P::Forces::INTERACTS,
+                "`interactions` are said once, in one list"
+            )
+        };
+        self.exchange_forces(|forces| Interacting::new(forces, P::Mechanism::beside(interactions)))
     }
 
     /// Passes the limits of the description as if there were none, see
     /// [`Simulation::without_limits`](crate::Simulation::without_limits).
     #[must_use]
-    pub fn without_limits(self) -> Stepper<S, M, F, K, Unlimited<A>, C> {
+    pub fn without_limits(self) -> Stepper<WithForces<P, Unlimited<P::Forces>>, K> {
         self.exchange_forces(Unlimited)
     }
 
     /// Solves the equations of motion in other coordinates: `.coordinates::<Relative>()`.
     #[must_use]
-    pub fn coordinates<C2: Coordinates<M>>(self) -> Stepper<S, M, F, K, A, C2> {
+    pub fn coordinates<C>(self) -> Stepper<WithCoordinates<P, C>, K>
+    where
+        C: Coordinates<P::Mechanism>,
+    {
         self.exchange(Dynamics::coordinates)
     }
 
     /// Solves the equations of motion in relative (joint) coordinates.
     #[must_use]
-    pub fn joint_coordinates(self) -> Stepper<S, M, F, K, A, Relative>
+    pub fn joint_coordinates(self) -> Stepper<WithCoordinates<P, Relative>, K>
     where
-        M: JointCoordinates,
+        P::Mechanism: JointCoordinates,
     {
         self.coordinates()
     }
 
     /// Solves the equations of motion in absolute coordinates.
     #[must_use]
-    pub fn absolute_coordinates(self) -> Stepper<S, M, F, K, A, Absolute> {
+    pub fn absolute_coordinates(self) -> Stepper<WithCoordinates<P, Absolute>, K> {
         self.coordinates()
     }
 
     /// Absolute coordinates with other rates of Euler parameters.
     #[doc(hidden)]
     #[must_use]
-    pub fn orientation<P: Orientation>(self) -> Stepper<S, M, F, K, A, Absolute<P>> {
+    pub fn orientation<O: Orientation>(self) -> Stepper<WithCoordinates<P, Absolute<O>>, K> {
         self.coordinates()
+    }
+
+    /// Begins at a time (s).
+    #[must_use]
+    pub fn starting_at(mut self, time: P::Number) -> Self {
+        self.clock = Clock::at(time);
+        self
+    }
+
+    /// Corrects the state onto the constraints after every step.
+    #[must_use]
+    pub fn projection(mut self, projection: Projection<P::Number>) -> Self {
+        self.projection = Some(projection);
+        self
     }
 
     /// The time that was reached (s).
     #[must_use]
-    pub fn time(&self) -> S {
+    pub fn time(&self) -> P::Number {
         self.clock.time()
     }
 
@@ -286,7 +262,7 @@ where
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
     /// [`Fault::InteractionSetting`] of a limit.
-    pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
+    pub fn update(&mut self, mechanism: &P::Mechanism) -> Result<(), Fault> {
         self.dynamics.update(mechanism)?;
         self.dynamics.renew_limits()
     }
@@ -297,7 +273,7 @@ where
     /// # Errors
     /// An input that is not finite; the former ones then stay.
     #[inline]
-    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault> {
+    pub fn set_inputs(&mut self, inputs: &InputsOf<P::Mechanism, P::Number>) -> Result<(), Fault> {
         self.dynamics.set_inputs(inputs)
     }
 
@@ -305,7 +281,7 @@ where
     ///
     /// # Errors
     /// As [`Dynamics::initial_state`].
-    pub fn initial_state(&self) -> Result<C::State<S>, Fault> {
+    pub fn initial_state(&self) -> Result<State<P>, Fault> {
         self.dynamics.initial_state()
     }
 
@@ -313,19 +289,19 @@ where
     ///
     /// # Errors
     /// As [`Dynamics::state_of`].
-    pub fn state_of(&self, bodies: &M::State<S>) -> Result<C::State<S>, Fault> {
+    pub fn state_of(&self, bodies: &Bodies<P>) -> Result<State<P>, Fault> {
         self.dynamics.state_of(bodies)
     }
 
     /// How the bodies stand and move in a state.
     #[must_use]
-    pub fn bodies(&self, state: &C::State<S>) -> M::State<S> {
+    pub fn bodies(&self, state: &State<P>) -> Bodies<P> {
         self.dynamics.bodies(state)
     }
 
     /// Readable access to a state of the bodies at the time that was reached.
     #[must_use]
-    pub fn view<'a>(&'a self, bodies: &'a M::State<S>) -> View<'a, S, M> {
+    pub fn view<'a>(&'a self, bodies: &'a Bodies<P>) -> View<'a, P::Number, P::Mechanism> {
         self.dynamics.view(self.time(), bodies)
     }
 
@@ -335,14 +311,17 @@ where
     ///
     /// # Errors
     /// As [`Dynamics::evaluate`].
-    pub fn multipliers(&self, bodies: &M::State<S>) -> Result<M::Multipliers<S>, Fault> {
+    pub fn multipliers(
+        &self,
+        bodies: &Bodies<P>,
+    ) -> Result<<P::Mechanism as Mechanism>::Multipliers<P::Number>, Fault> {
         let evaluation = self.dynamics.evaluate_bodies(self.time(), bodies)?;
         Ok(evaluation.multipliers)
     }
 
     /// The prepared dynamics, for evaluations outside a step; with interactions in their modes.
     #[must_use]
-    pub fn dynamics(&self) -> &Prepared<S, M, F, A, C> {
+    pub fn dynamics(&self) -> &Dynamics<UnderWay<P>> {
         &self.dynamics
     }
 
@@ -354,15 +333,7 @@ where
     }
 }
 
-impl<S, M, F, K, A, C> Stepper<S, M, F, K, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    K: OneStep<S, Prepared<S, M, F, A, C>>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<P: Solvable, K: Steps<P>> Stepper<P, K> {
     /// Moves the state by one step of `dt` (s).
     ///
     /// With limits of the description or other interactions it finds the modes at its start, so
@@ -378,8 +349,8 @@ where
     /// Why the step could not be done; with interactions those of
     /// [`Simulation::interactions`](crate::Simulation::interactions). State, time and modes are
     /// then as before.
-    pub fn step(&mut self, state: &mut C::State<S>, dt: S) -> Result<(), Fault> {
-        if <Heeding<S, M, A> as AppliedForces<S, M>>::INTERACTS {
+    pub fn step(&mut self, state: &mut State<P>, dt: P::Number) -> Result<(), Fault> {
+        if <UnderWay<P> as Posed>::Forces::INTERACTS {
             return self.step_with_modes(state, dt);
         }
         let time = self.time();
@@ -395,10 +366,14 @@ where
 
     /// The clock after a step from a state, if both can be.
     #[inline]
-    pub(crate) fn checked(&self, state: &C::State<S>, dt: S) -> Result<Clock<S>, Fault> {
-        let clock = end_of_step::<S, M>(&self.clock, dt)?;
-        if !C::IS_RELATIVE {
-            C::check(state)?;
+    pub(crate) fn checked(
+        &self,
+        state: &State<P>,
+        dt: P::Number,
+    ) -> Result<Clock<P::Number>, Fault> {
+        let clock = end_of_step::<P::Number, P::Mechanism>(&self.clock, dt)?;
+        if !P::Coordinates::IS_RELATIVE {
+            P::Coordinates::check(state)?;
         }
         Ok(clock)
     }
@@ -406,9 +381,9 @@ where
     /// Ends a step that was looked into with a state after `dt` (s).
     pub(crate) fn end_step(
         &mut self,
-        state: &mut C::State<S>,
-        mut next: C::State<S>,
-        dt: S,
+        state: &mut State<P>,
+        mut next: State<P>,
+        dt: P::Number,
     ) -> Result<(), Fault> {
         let clock = self.clock.after(dt);
         self.dynamics.renormalise(&mut next, None);
@@ -424,10 +399,10 @@ where
     #[inline(never)]
     fn projected(
         &mut self,
-        state: &mut C::State<S>,
-        dt: S,
-        end: S,
-        projection: &Projection<S>,
+        state: &mut State<P>,
+        dt: P::Number,
+        end: P::Number,
+        projection: &Projection<P::Number>,
     ) -> Result<(), Fault> {
         let mut next = *state;
         let time = self.time();
@@ -438,13 +413,13 @@ where
 
     fn corrected(
         &self,
-        next: &C::State<S>,
-        end: S,
-        projection: &Projection<S>,
-    ) -> Result<C::State<S>, Fault> {
+        next: &State<P>,
+        end: P::Number,
+        projection: &Projection<P::Number>,
+    ) -> Result<State<P>, Fault> {
         let mut bodies = self.dynamics.bodies(next);
         let constants = self.dynamics.constants();
-        projection.correct_in_motion::<M>(constants, end, &mut bodies)?;
+        projection.correct_in_motion::<P::Mechanism>(constants, end, &mut bodies)?;
         Ok(self.dynamics.nearest_to(&bodies, next))
     }
 
@@ -456,39 +431,20 @@ where
     #[inline]
     pub fn step_with(
         &mut self,
-        state: &mut C::State<S>,
-        inputs: &M::Inputs<S>,
-        dt: S,
+        state: &mut State<P>,
+        inputs: &InputsOf<P::Mechanism, P::Number>,
+        dt: P::Number,
     ) -> Result<(), Fault> {
         self.set_inputs(inputs)?;
         self.step(state, dt)
     }
 }
 
-/// Schemes that step a mechanism `M` by a formulation `F`, with forces `A` of a closure and in the
-/// coordinates `C`. It is implemented by every scheme for such a system; a function that is generic
-/// over schemes asks for it.
-pub trait Steps<S, M, F, C = <M as Mechanism>::Coordinates, A = NoForces>:
-    OneStep<S, Prepared<S, M, F, A, C>>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    C: Coordinates<M>,
-    A: AppliedForces<S, M>,
-{
-}
+/// Schemes that step a problem `P`. It is implemented by every scheme for its equations; a function
+/// that is generic over schemes asks for it.
+pub trait Steps<P: Solvable>: OneStep<P::Number, Dynamics<UnderWay<P>>> {}
 
-impl<K, S, M, F, C, A> Steps<S, M, F, C, A> for K
-where
-    K: OneStep<S, Prepared<S, M, F, A, C>>,
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    C: Coordinates<M>,
-    A: AppliedForces<S, M>,
-{
-}
+impl<P: Solvable, K: OneStep<P::Number, Dynamics<UnderWay<P>>>> Steps<P> for K {}
 
 /// The clock after a step, if that is one.
 pub(crate) fn end_of_step<S: Real, M: Mechanism>(

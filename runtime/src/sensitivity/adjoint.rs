@@ -14,42 +14,47 @@ use std::vec::Vec;
 use nalgebra::SVector;
 
 use super::Differentiable;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, Posed, Problem};
 use crate::error::{Fault, LeavesOut, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::{Forward, Lifted, lifted};
 use crate::independent::{Along, IndependentCoordinates};
 use crate::integrate::{FixedStep, OneStep, Scheme};
 use crate::math::scalar::{Real, Scalar};
-use crate::measure::load::NoForces;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::Relative;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
-use crate::mechanism::kernels::bodies_alone;
+use crate::mechanism::kernels::{Mechanism as _, bodies_alone};
 use crate::nonsmooth::described::refuse_limits;
 use crate::state::vector::Array as _;
 
 /// The directions that one step takes, as many as [`Lifted`] numbers have.
 const LANES: usize = 4;
 
-/// Steps of a mechanism by its joints.
-type Steps<S, M, F> = Dynamics<S, M, F, NoForces, Relative>;
+/// A mechanism by its joints.
+type ByJoints<M, F, S> = Problem<M, F, S, Relative>;
+
+/// Its equations.
+type Steps<S, M, F> = Dynamics<ByJoints<M, F, S>>;
 
 /// A mechanism, a formulation and an explicit method of a fixed step, along which costs have
 /// gradients: by [`IndependentCoordinates::adjoint`].
-pub struct Adjoint<'a, M: JointRates, F, K, const N: usize, S: Real = f64> {
-    space: &'a IndependentCoordinates<M, N, S>,
-    formulation: F,
-    integrator: FixedStep<S, K>,
+///
+/// `P` is the [`Problem`] that is solved, by joints, `K` the method.
+pub struct Adjoint<'a, P: Posed<Mechanism: JointRates>, K, const N: usize> {
+    space: &'a IndependentCoordinates<P::Mechanism, N, P::Number>,
+    formulation: P::Formulation,
+    integrator: FixedStep<P::Number, K>,
 }
 
-impl<M: JointRates, F: Debug, K: Debug, const N: usize, S: Real> Debug
-    for Adjoint<'_, M, F, K, N, S>
+impl<P, K: Debug, const N: usize> Debug for Adjoint<'_, P, K, N>
+where
+    P: Posed<Mechanism: JointRates, Formulation: Debug>,
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Adjoint")
-            .field("mechanism", &M::REPORT.name)
+            .field("mechanism", &P::Mechanism::REPORT.name)
             .field("formulation", &self.formulation)
             .field("integrator", &self.integrator)
             .finish()
@@ -167,7 +172,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         &self,
         formulation: F,
         integrator: FixedStep<S, K>,
-    ) -> Adjoint<'_, M, F, K, N, S> {
+    ) -> Adjoint<'_, ByJoints<M, F, S>, K, N> {
         Adjoint {
             space: self,
             formulation,
@@ -176,7 +181,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     }
 }
 
-impl<M, F, K, const N: usize, S> Adjoint<'_, M, F, K, N, S>
+impl<M, F, K, const N: usize, S> Adjoint<'_, ByJoints<M, F, S>, K, N>
 where
     M: JointRates,
     S: Real,
@@ -302,7 +307,7 @@ fn by_joints<S: Real, M: JointRates, F: Formulation<S>>(
     parameters: M::Parameters<S>,
     formulation: F,
 ) -> Result<Steps<S, M, F>, Fault> {
-    let dynamics = Dynamics::<S, M, F>::of_parameters(parameters, formulation)?;
+    let dynamics = Dynamics::<Problem<M, F, S>>::of_parameters(parameters, formulation)?;
     Ok(dynamics.joint_coordinates())
 }
 
@@ -330,7 +335,7 @@ where
     S: Real,
     F: Differentiable<S, LANES, Carrying: Formulation<Lifted<S>>>,
 {
-    adjoint: &'a Adjoint<'a, M, F, K, N, S>,
+    adjoint: &'a Adjoint<'a, ByJoints<M, F, S>, K, N>,
     held: [ValueHandle<M>; U],
     values: [ValueHandle<M>; P],
     /// With the controls and the time of a step.

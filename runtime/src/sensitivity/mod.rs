@@ -25,9 +25,10 @@ use core::fmt::{self, Debug};
 pub use adjoint::{Adjoint, Gradient, Instant};
 pub use differentiable::Differentiable;
 pub use least_squares::{Fit, FitError, Squares, fit};
+use simulation::Lifted;
 pub use simulation::SensitivitySimulation;
 
-use crate::dynamics::{Dynamics, parameters};
+use crate::dynamics::{Dynamics, Problem, parameters};
 use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::formulation::Formulation;
@@ -50,6 +51,9 @@ pub struct Sensitivities<M: Mechanism, const K: usize, S: Real = f64> {
     pub(crate) passes_limits: bool,
     scales: Option<[S; K]>,
 }
+
+/// The equations of motion along `K` directions.
+type Equations<M, F, S, const K: usize> = Dynamics<Problem<M, F, Forward<S, K>>>;
 
 copied!([M: Mechanism, const K: usize, S: Real] Sensitivities<M, K, S>);
 
@@ -192,23 +196,20 @@ impl<M: Mechanism, const K: usize, S: Real> Sensitivities<M, K, S> {
         self,
         formulation: F,
         integrator: I,
-    ) -> SensitivitySimulation<M, F::Carrying, I::Carrying, K, S>
+    ) -> SensitivitySimulation<Lifted<M, F::Carrying, S, K>, I::Carrying>
     where
         F: Differentiable<S, K, Carrying: Formulation<Forward<S, K>>>,
         I: Differentiable<S, K, Carrying: Method<Forward<S, K>>>,
     {
         let integrator = integrator.scaled(&self.known_scales());
-        SensitivitySimulation::new(self, formulation.carrying(), integrator)
+        SensitivitySimulation::new(&self, formulation.carrying(), integrator)
     }
 
     /// The equations of motion with a formulation, for evaluations and for steps of one's own.
     ///
     /// # Errors
     /// A coefficient of the formulation that is not acceptable.
-    pub fn dynamics<F>(
-        &self,
-        formulation: F,
-    ) -> Result<Dynamics<Forward<S, K>, M, F::Carrying>, Fault>
+    pub fn dynamics<F>(&self, formulation: F) -> Result<Equations<M, F::Carrying, S, K>, Fault>
     where
         F: Differentiable<S, K, Carrying: Formulation<Forward<S, K>>>,
     {

@@ -5,14 +5,15 @@ use core::ops::RangeInclusive;
 
 use super::Sensitivities;
 use super::start::check_derivatives;
+use crate::dynamics::{Bodies, Posed, Problem, Solvable, WithCoordinates, WithLaw};
 use crate::error::{Fault, SimulationError, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::Forward;
 use crate::integrate::Method;
 use crate::math::scalar::Real;
 use crate::measure::interacting::Unlimited;
-use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
-use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
+use crate::measure::load::{Loads, NoForces};
+use crate::mechanism::coordinates::{Absolute, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::described::refuse_limits;
@@ -20,30 +21,28 @@ use crate::run::output::{IntoFlow, Reporting};
 use crate::run::report::RunResult;
 use crate::run::runs::Runs;
 use crate::run::sample::Sample;
-use crate::run::simulation::{Simulation, Solving};
+use crate::run::simulation::Simulation;
 
-/// A state whose numbers carry derivatives.
-type State<M, const K: usize, S> = <M as Mechanism>::State<Forward<S, K>>;
+/// What a mechanism is along `K` directions, before more is said of it.
+pub(super) type Lifted<M, F, S, const K: usize> =
+    Problem<M, F, Forward<S, K>, <M as Mechanism>::Coordinates, Unlimited<NoForces>>;
 
-/// A mechanism along `K` directions, a formulation and an explicit method, ready to run: by
+/// A mechanism along some directions, a formulation and an explicit method, ready to run: by
 /// [`Sensitivities::simulation`].
 ///
-/// A step control holds values and derivatives to its tolerance, see [`Sensitivities::scales`].
-pub struct SensitivitySimulation<
-    M: Mechanism,
-    F,
-    I,
-    const K: usize,
-    S: Real = f64,
-    A = NoForces,
-    C = <M as Mechanism>::Coordinates,
-> {
-    along: Sensitivities<M, K, S>,
-    simulation: Solving<'static, Forward<S, K>, M, F, I, Unlimited<A>, C>,
+/// `P` is the [`Problem`] that is solved, over [`Forward`] numbers, `I` the method. A step control
+/// holds values and derivatives to its tolerance, see [`Sensitivities::scales`].
+pub struct SensitivitySimulation<P: Posed, I> {
+    parameters: <P::Mechanism as Mechanism>::Parameters<P::Number>,
+    start: Bodies<P>,
+    passes_limits: bool,
+    simulation: Simulation<'static, P, I>,
 }
 
-impl<M: Mechanism, F: Debug, I: Debug, const K: usize, S: Real, A, C> Debug
-    for SensitivitySimulation<M, F, I, K, S, A, C>
+impl<P, I, const K: usize, S: Real> Debug for SensitivitySimulation<P, I>
+where
+    P: Posed<Number = Forward<S, K>, Formulation: Debug>,
+    I: Debug,
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("SensitivitySimulation")
@@ -53,49 +52,31 @@ impl<M: Mechanism, F: Debug, I: Debug, const K: usize, S: Real, A, C> Debug
     }
 }
 
-impl<M, F, I, const K: usize, S> SensitivitySimulation<M, F, I, K, S>
+impl<M, F, I, const K: usize, S> SensitivitySimulation<Lifted<M, F, S, K>, I>
 where
     M: Mechanism,
     F: Formulation<Forward<S, K>>,
     I: Method<Forward<S, K>>,
     S: Real,
 {
-    pub(super) fn new(along: Sensitivities<M, K, S>, formulation: F, integrator: I) -> Self {
+    pub(super) fn new(along: &Sensitivities<M, K, S>, formulation: F, integrator: I) -> Self {
+        let start = along.start();
         let simulation = Simulation::of_parameters(along.parameters, formulation, integrator);
         Self {
-            along,
-            simulation: simulation.initial_state(along.start()).without_limits(),
+            parameters: along.parameters,
+            start,
+            passes_limits: along.passes_limits,
+            simulation: simulation.initial_state(start).without_limits(),
         }
     }
 }
 
-impl<M, F, I, const K: usize, S, A, C> SensitivitySimulation<M, F, I, K, S, A, C>
-where
-    M: Mechanism,
-    F: Formulation<Forward<S, K>>,
-    I: Method<Forward<S, K>>,
-    S: Real,
-    A: AppliedForces<Forward<S, K>, M>,
-    C: Coordinates<M>,
-{
+impl<P: Solvable, I: Method<P::Number>> SensitivitySimulation<P, I> {
     /// Passes the limits of the description, which are refused otherwise.
     #[must_use]
     pub fn without_limits(mut self) -> Self {
-        self.along.passes_limits = true;
+        self.passes_limits = true;
         self
-    }
-
-    /// Applies forces as a function of time and state, over numbers that carry derivatives, see
-    /// [`Simulation::forces`].
-    #[must_use]
-    pub fn forces<G>(self, law: G) -> SensitivitySimulation<M, F, I, K, S, A::With<ForceLaw<G>>, C>
-    where
-        G: Fn(Forward<S, K>, &M::State<Forward<S, K>>, &mut Loads<'_, Forward<S, K>, M>),
-    {
-        SensitivitySimulation {
-            along: self.along,
-            simulation: self.simulation.forces(law),
-        }
     }
 
     /// Runs without the monitor, see [`Simulation::unmonitored`].
@@ -105,36 +86,51 @@ where
         self
     }
 
-    /// Solves the equations of motion in relative (joint) coordinates.
-    #[must_use]
-    pub fn joint_coordinates(self) -> SensitivitySimulation<M, F, I, K, S, A, Relative>
+    fn exchange<Q>(
+        self,
+        exchange: impl FnOnce(Simulation<'static, P, I>) -> Simulation<'static, Q, I>,
+    ) -> SensitivitySimulation<Q, I>
     where
-        M: JointCoordinates,
+        Q: Posed<Mechanism = P::Mechanism, Number = P::Number>,
     {
         SensitivitySimulation {
-            along: self.along,
-            simulation: self.simulation.joint_coordinates(),
+            parameters: self.parameters,
+            start: self.start,
+            passes_limits: self.passes_limits,
+            simulation: exchange(self.simulation),
         }
+    }
+
+    /// Applies forces as a function of time and state, over numbers that carry derivatives, see
+    /// [`Simulation::forces`].
+    #[must_use]
+    pub fn forces<G>(self, law: G) -> SensitivitySimulation<WithLaw<P, G>, I>
+    where
+        G: Fn(P::Number, &Bodies<P>, &mut Loads<'_, P::Number, P::Mechanism>),
+    {
+        self.exchange(|simulation| simulation.forces(law))
+    }
+
+    /// Solves the equations of motion in relative (joint) coordinates.
+    #[must_use]
+    pub fn joint_coordinates(self) -> SensitivitySimulation<WithCoordinates<P, Relative>, I>
+    where
+        P::Mechanism: JointCoordinates,
+    {
+        self.exchange(Simulation::joint_coordinates)
     }
 
     /// Solves the equations of motion in absolute coordinates.
     #[must_use]
-    pub fn absolute_coordinates(self) -> SensitivitySimulation<M, F, I, K, S, A, Absolute> {
-        SensitivitySimulation {
-            along: self.along,
-            simulation: self.simulation.absolute_coordinates(),
-        }
+    pub fn absolute_coordinates(self) -> SensitivitySimulation<WithCoordinates<P, Absolute>, I> {
+        self.exchange(Simulation::absolute_coordinates)
     }
 }
 
-impl<M, F, I, const K: usize, S, A, C> SensitivitySimulation<M, F, I, K, S, A, C>
+impl<P, M: Mechanism, S: Real, I, const K: usize> SensitivitySimulation<P, I>
 where
-    M: Mechanism,
-    F: Formulation<Forward<S, K>>,
-    I: Runs<Forward<S, K>, M, F, C, Unlimited<A>>,
-    S: Real,
-    A: AppliedForces<Forward<S, K>, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = Forward<S, K>, Mechanism = M>,
+    I: Runs<P>,
 {
     /// Runs over an interval of time (s), see [`Simulation::run`]. The sample's readings carry
     /// derivatives.
@@ -149,20 +145,20 @@ where
         interval: RangeInclusive<S>,
         reporting: Reporting<S>,
         observe: O,
-    ) -> RunResult<Forward<S, K>, M, R::Error<State<M, K, S>>>
+    ) -> RunResult<Forward<S, K>, M, R::Error<Bodies<P>>>
     where
         O: FnMut(&Sample<'_, Forward<S, K>, M>) -> R,
         R: IntoFlow,
     {
         let (from, to) = interval.into_inner();
         let [start, end] = [from, to].map(Forward::fixed);
-        let constants = M::prepare(&self.along.parameters);
-        let state = self.along.start();
+        let constants = M::prepare(&self.parameters);
+        let state = self.start;
         if let Some(switch) = M::SWITCHES.first() {
             let (time, fault) = (from.to_f64(), Fault::SwitchLeftOut { law: switch.law });
             return Err(SimulationError { time, fault, state }.into());
         }
-        if !self.along.passes_limits
+        if !self.passes_limits
             && let Err(fault) = refuse_limits::<M>(Unheeding::Derivatives)
         {
             let time = from.to_f64();

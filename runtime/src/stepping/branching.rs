@@ -4,12 +4,9 @@
 //! other. So a run closes them on its way through: `docs/decisions/034-straight-on.md`.
 
 use crate::constraints::projection::Projection;
-use crate::dynamics::Dynamics;
-use crate::formulation::Formulation;
+use crate::dynamics::{Dynamics, Solvable, State};
 use crate::integrate::Memory;
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 
 /// A relative pivot, as the square of a distance, that is far from zero. Of a pendulum by bodies
@@ -73,18 +70,13 @@ impl<S: Real> Branching<S> {
 
     /// Sees the end of a step.
     #[inline]
-    pub(crate) fn step<M, F, A, C>(
+    pub(crate) fn step<P: Solvable<Number = S>>(
         &mut self,
-        dynamics: &mut Dynamics<S, M, F, A, C>,
+        dynamics: &mut Dynamics<P>,
         time: S,
-        state: &C::State<S>,
-    ) where
-        M: Mechanism,
-        F: Formulation<S>,
-        A: AppliedForces<S, M>,
-        C: Coordinates<M>,
-    {
-        if !const { Dynamics::<S, M, F, A, C>::CLOSES } {
+        state: &State<P>,
+    ) {
+        if !const { Dynamics::<P>::CLOSES } {
             return;
         }
         self.is_due = !self.is_due;

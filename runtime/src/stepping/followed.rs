@@ -8,14 +8,10 @@
 
 use core::ops::Deref;
 
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Bodies, Dynamics, Solvable, State};
 use crate::error::Fault;
-use crate::formulation::Formulation;
 use crate::integrate::Advance;
-use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
-use crate::mechanism::kernels::Mechanism;
+use crate::math::scalar::Scalar as _;
 use crate::mechanism::turns;
 
 /// So many instants at most are looked at, one after the other.
@@ -24,19 +20,15 @@ const LOOKS: usize = 32;
 /// The bodies at a time (s) within the last step of an integration, or at its end, which stood near
 /// by at another one.
 #[inline]
-pub(crate) fn bodies_within<S, M, F, A, C, K>(
-    dynamics: &mut Dynamics<S, M, F, A, C>,
+pub(crate) fn bodies_within<P, K>(
+    dynamics: &mut Dynamics<P>,
     integration: &mut K,
-    (start, near): (S, &M::State<S>),
-    time: S,
-) -> Result<M::State<S>, Fault>
+    (start, near): (P::Number, &Bodies<P>),
+    time: P::Number,
+) -> Result<Bodies<P>, Fault>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    K: Advance<S, Dynamics<S, M, F, A, C>>,
+    P: Solvable,
+    K: Advance<P::Number, Dynamics<P>>,
 {
     let (bodies, is_known) = if time == integration.time() {
         dynamics.bodies_after(integration.state(), (time - start, near))
@@ -48,7 +40,7 @@ where
         return Ok(bodies);
     }
     let seen = dynamics.seen();
-    let at = |dynamics: &mut &mut Dynamics<S, M, F, A, C>, time: S| {
+    let at = |dynamics: &mut &mut Dynamics<P>, time: P::Number| {
         if time == integration.time() {
             Ok(*integration.state())
         } else {
@@ -64,19 +56,17 @@ where
 /// the turns.
 #[cold]
 #[inline(never)]
-pub(crate) fn bodies_by_halves<D, S, M, F, A, C>(
+pub(crate) fn bodies_by_halves<D, P>(
     mut dynamics: D,
-    (mut before, near): (S, &M::State<S>),
-    time: S,
-    mut at: impl FnMut(&mut D, S) -> Result<C::State<S>, Fault>,
-) -> Result<M::State<S>, Fault>
+    (mut before, near): (P::Number, &Bodies<P>),
+    time: P::Number,
+    mut at: impl FnMut(&mut D, P::Number) -> Result<State<P>, Fault>,
+) -> Result<Bodies<P>, Fault>
 where
-    D: Deref<Target = Dynamics<S, M, F, A, C>>,
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    C: Coordinates<M>,
+    D: Deref<Target = Dynamics<P>>,
+    P: Solvable,
 {
+    let half = P::Number::constant(0.5);
     let (mut near, mut next) = (*near, time);
     for _ in 0..LOOKS {
         let state = at(&mut dynamics, next)?;
@@ -87,14 +77,19 @@ where
         if is_known {
             (before, near, next) = (next, bodies, time);
         } else {
-            next = S::constant(0.5).fused(next - before, before);
+            next = half.fused(next - before, before);
         }
     }
-    let middle = at(&mut dynamics, S::constant(0.5).fused(time - before, before))?;
+    let middle = at(&mut dynamics, half.fused(time - before, before))?;
     let end = at(&mut dynamics, time)?;
     let middle = dynamics.bodies_near(&middle, &near);
     let mut bodies = dynamics.bodies_near(&end, &near);
     let constants = dynamics.constants();
-    turns::count_through::<S, M>(constants, [&near, &middle], time - before, &mut bodies);
+    turns::count_through::<P::Number, P::Mechanism>(
+        constants,
+        [&near, &middle],
+        time - before,
+        &mut bodies,
+    );
     Ok(bodies)
 }

@@ -7,10 +7,9 @@ use super::branching::Branching;
 use super::deferred::Deferred;
 use super::followed::bodies_within;
 use super::marching::{Advanced, Marching, Settings};
-use crate::dynamics::Dynamics;
 use crate::dynamics::equations::Equations;
+use crate::dynamics::{Dynamics, Solvable, State};
 use crate::error::Fault;
-use crate::formulation::Formulation;
 use crate::integrate::{
     Advance as _, Counts, Integration as _, Integrator, Memory, Reader, System as _, TimeSpan,
 };
@@ -24,33 +23,25 @@ use crate::state::vector::{MovingState, Vector};
 const LITTLE: f64 = 1e-6;
 
 /// The equations with a method, and the integration that is under way.
-pub(crate) struct March<S, M, F, A, C, I>
+pub(crate) struct March<P, I>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    I: Integrator<S, Dynamics<S, M, F, A, C>>,
+    P: Solvable,
+    I: Integrator<P::Number, Dynamics<P>>,
 {
-    dynamics: Dynamics<S, M, F, A, C>,
+    dynamics: Dynamics<P>,
     integrator: I,
     /// The state in which the integration has begun, and the integration.
-    under_way: Option<(C::State<S>, I::Integration)>,
-    deferred: Deferred<C::State<S>>,
-    branching: Branching<S>,
+    under_way: Option<(State<P>, I::Integration)>,
+    deferred: Deferred<State<P>>,
+    branching: Branching<P::Number>,
 }
 
-impl<S, M, F, A, C, I> March<S, M, F, A, C, I>
+impl<P, S: Real, M: Mechanism, I> March<P, I>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    I: Integrator<S, Dynamics<S, M, F, A, C>>,
+    P: Solvable<Number = S, Mechanism = M>,
+    I: Integrator<S, Dynamics<P>>,
 {
-    pub(crate) fn new(mut dynamics: Dynamics<S, M, F, A, C>, integrator: I) -> Self {
+    pub(crate) fn new(mut dynamics: Dynamics<P>, integrator: I) -> Self {
         let is_controlled = integrator.fixed_step().is_none();
         dynamics.begin_near(is_controlled);
         Self {
@@ -62,7 +53,7 @@ where
         }
     }
 
-    fn begin(&mut self, span: TimeSpan<S>, state: C::State<S>) -> Result<(), Fault> {
+    fn begin(&mut self, span: TimeSpan<S>, state: State<P>) -> Result<(), Fault> {
         self.under_way = None;
         let integration = self.integrator.start(&mut self.dynamics, span, state)?;
         self.under_way = Some((state, integration));
@@ -70,7 +61,7 @@ where
     }
 
     /// The rates at the end of the last step, or of bodies between two integrations.
-    fn rates(&mut self, between: Option<(S, &M::State<S>)>) -> Result<C::State<S>, Fault> {
+    fn rates(&mut self, between: Option<(S, &M::State<S>)>) -> Result<State<P>, Fault> {
         let (time, state) = match (between, &self.under_way) {
             (Some((time, bodies)), _) => (time, self.dynamics.nearest(bodies)),
             (None, Some((_, integration))) => (integration.time(), *integration.state()),
@@ -81,33 +72,25 @@ where
 }
 
 /// What is known of a method that moves equations of motion.
-pub(crate) fn settings<S, M, F, A, C, I>(integrator: &I) -> Settings<S>
+pub(crate) fn settings<P, I>(integrator: &I) -> Settings<P::Number>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    I: Integrator<S, Dynamics<S, M, F, A, C>>,
+    P: Solvable,
+    I: Integrator<P::Number, Dynamics<P>>,
 {
     Settings {
         fixed_step: integrator.fixed_step(),
         absolute: integrator.tolerance().map(|of| of.absolute),
         budget: integrator.budget().unwrap_or(usize::MAX),
-        interacts: A::INTERACTS,
-        may_defer: C::IS_RELATIVE && !A::PRESENT,
-        may_branch: Dynamics::<S, M, F, A, C>::CLOSES,
+        interacts: P::Forces::INTERACTS,
+        may_defer: P::Coordinates::IS_RELATIVE && !P::Forces::PRESENT,
+        may_branch: Dynamics::<P>::CLOSES,
     }
 }
 
-impl<S, M, F, A, C, I> Marching<S, M> for March<S, M, F, A, C, I>
+impl<P, S: Real, M: Mechanism, I> Marching<S, M> for March<P, I>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    I: Integrator<S, Dynamics<S, M, F, A, C>>,
+    P: Solvable<Number = S, Mechanism = M>,
+    I: Integrator<S, Dynamics<P>>,
 {
     fn equations(&self) -> &dyn Equations<S, M> {
         &self.dynamics
@@ -118,7 +101,7 @@ where
     }
 
     fn settings(&self) -> Settings<S> {
-        settings::<S, M, F, A, C, I>(&self.integrator)
+        settings::<P, I>(&self.integrator)
     }
 
     #[cfg(feature = "std")]
@@ -296,7 +279,7 @@ where
     }
 
     fn remember_branches(&mut self, memory: &mut Memory<'_, S>) {
-        if const { Dynamics::<S, M, F, A, C>::CLOSES } {
+        if const { Dynamics::<P>::CLOSES } {
             self.branching.remember(memory, &mut self.dynamics.near);
         }
     }
@@ -320,7 +303,7 @@ where
         between: Option<(S, &M::State<S>)>,
         elements: &[S],
     ) -> Result<Option<S>, Fault> {
-        let Some(others) = vector::<S, C::State<S>>(elements) else {
+        let Some(others) = vector::<S, State<P>>(elements) else {
             return Ok(None);
         };
         let rates = self.rates(between)?;

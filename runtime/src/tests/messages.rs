@@ -341,7 +341,7 @@ fn what_runs_can_be_shown() {
     let run = Simulation::new(&rod, StandardLagrange, Rk4::every(0.125));
     let shown = "Simulation { mechanism: \"Rod\", formulation: StandardLagrange, integrator: ";
     assert!(format!("{:?}", run.clone()).starts_with(shown), "{run:?}");
-    let stepper = Stepper::<f64, _, _, _>::new(&rod, StandardLagrange, Rk4).unwrap();
+    let stepper = Stepper::<dynamics::Problem<_, _>, _>::new(&rod, StandardLagrange, Rk4).unwrap();
     assert_eq!(
         format!("{stepper:?}"),
         "Stepper { mechanism: \"Rod\", method: Rk4, .. }"

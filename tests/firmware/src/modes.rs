@@ -123,7 +123,7 @@ fn bounced<S: Real>() -> Result<S, Fault> {
     let (falling, h) = (Falling::default(), Falling::HANDLES);
     let (floor, open) = (S::constant(-1.0), S::constant(f64::INFINITY));
     let limit = Interaction::limits(h.rail.displacement(), [floor, open]);
-    let mut stepper = Stepper::<S, _, _, _>::new(&falling, StandardLagrange, Rk4)?
+    let mut stepper = Stepper::<Problem<_, _, S>, _>::new(&falling, StandardLagrange, Rk4)?
         .interactions([limit.restitution(S::constant(0.5))]);
     let mut state = stepper.initial_state()?;
     for _ in 0..600 {
@@ -144,7 +144,7 @@ fn bounced<S: Real>() -> Result<S, Fault> {
 /// Stops a step where half a metre is fallen.
 fn reached<S: Real>() -> Result<S, Fault> {
     let (falling, h) = (Falling::default(), Falling::HANDLES);
-    let mut stepper = Stepper::<S, _, _, _>::new(&falling, StandardLagrange, Rk4)?;
+    let mut stepper = Stepper::<Problem<_, _, S>, _>::new(&falling, StandardLagrange, Rk4)?;
     let mut state = stepper.initial_state()?;
     let half = |view: &View<'_, S, Falling>| view.displacement(h.rail) + S::constant(0.5);
     for _ in 0..600 {
@@ -160,7 +160,7 @@ fn reached<S: Real>() -> Result<S, Fault> {
 fn stopped<S: Real>() -> Result<S, Fault> {
     let (sliding, h) = (Sliding::default(), Sliding::HANDLES);
     let friction = Interaction::friction(h.rail.displacement(), S::constant(2.0));
-    let mut stepper = Stepper::<S, _, _, _>::new(&sliding, StandardLagrange, Rk4)?
+    let mut stepper = Stepper::<Problem<_, _, S>, _>::new(&sliding, StandardLagrange, Rk4)?
         .interactions([friction.stiction(S::constant(3.0))]);
     let mut state = stepper.initial_state()?;
     for _ in 0..1000 {
@@ -181,8 +181,8 @@ fn coupled<S: Real>() -> Result<S, Fault> {
     let clutch = Interaction::clutch(h.shaft.angle(), h.bearing.angle(), one, capacity);
     let interactions = [clutch.released()];
     let [clutch] = Interaction::handles(&interactions);
-    let mut stepper =
-        Stepper::<S, _, _, _>::new(&winch, StandardLagrange, Rk4)?.interactions(interactions);
+    let mut stepper = Stepper::<Problem<_, _, S>, _>::new(&winch, StandardLagrange, Rk4)?
+        .interactions(interactions);
     let mut state = stepper.initial_state()?;
     for period in 0..1100 {
         if period == 100 {
@@ -199,7 +199,7 @@ fn coupled<S: Real>() -> Result<S, Fault> {
 /// Runs up to where the voltage of the motor is its own: 2 V are 40 rad/s.
 fn driven<S: Real>() -> Result<S, Fault> {
     let (motor, h) = (Motor::default(), Motor::HANDLES);
-    let mut stepper = Stepper::<S, _, _, _>::new(&motor, StandardLagrange, Rk4)?;
+    let mut stepper = Stepper::<Problem<_, _, S>, _>::new(&motor, StandardLagrange, Rk4)?;
     let mut state = stepper.initial_state()?;
     let inputs = InputsOf::<Motor, S> {
         voltage: S::constant(2.0),
@@ -218,7 +218,7 @@ fn driven<S: Real>() -> Result<S, Fault> {
 /// Goes `t^3 / 3` under the force of the table.
 fn pushed<S: Real>() -> Result<S, Fault> {
     let (pushed, h) = (Pushed::default(), Pushed::HANDLES);
-    let mut stepper = Stepper::<S, _, _, _>::new(&pushed, StandardLagrange, Rk4)?;
+    let mut stepper = Stepper::<Problem<_, _, S>, _>::new(&pushed, StandardLagrange, Rk4)?;
     let mut state = stepper.initial_state()?;
     for _ in 0..1000 {
         stepper.step(&mut state, S::constant(PERIOD))?;
@@ -235,7 +235,7 @@ fn pushed<S: Real>() -> Result<S, Fault> {
 /// What a step refuses.
 pub fn sprung<S: Real>() -> Result<S, Fault> {
     let (springing, h) = (Springing::default(), Springing::HANDLES);
-    let mut stepper = Stepper::<S, _, _, _>::new(&springing, StandardLagrange, Rk4)?;
+    let mut stepper = Stepper::<Problem<_, _, S>, _>::new(&springing, StandardLagrange, Rk4)?;
     let mut state = stepper.initial_state()?;
     for _ in 0..4000 {
         stepper.step(&mut state, S::constant(PERIOD))?;

@@ -42,7 +42,7 @@ pub fn balance<S: Real>() -> Result<[S; 2], Fault> {
     let space: IndependentCoordinates<CartPole, 2, S> =
         cart_pole.coordinates_in((h.rail, h.pin))?;
     let mut state = space.state([S::zero(), S::constant(0.3)], [S::zero(); 2])?;
-    let mut stepper = Stepper::<S, _, _, _>::new(&cart_pole, StandardLagrange, Rk4)?;
+    let mut stepper = Stepper::<Problem<_, _, S>, _>::new(&cart_pole, StandardLagrange, Rk4)?;
     for _ in 0..6000 {
         let (q, v) = (space.positions(&state)?, space.rates(&state));
         let measured = [q.x, q.y, v.x, v.y];

@@ -5,7 +5,6 @@ use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{
     JointCoordinates, Real, View,
-    measure::NoForces,
     mechanism::{Absolute, Relative},
 };
 
@@ -190,7 +189,7 @@ pub const PERIOD: f64 = 1e-3;
 
 /// By its bodies.
 pub struct ByBodies<S: Real, M: Plant, F: Tried<S>> {
-    stepper: Stepper<S, M, F, Rk4, NoForces, Absolute>,
+    stepper: Stepper<Problem<M, F, S, Absolute>, Rk4>,
 }
 
 impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByBodies<S, M, F> {
@@ -228,7 +227,7 @@ impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByBodies<S, M, F> {
 
 /// By its joints.
 pub struct ByJoints<S: Real, M: Plant, F: Tried<S>> {
-    stepper: Stepper<S, M, F, Rk4, NoForces, Relative>,
+    stepper: Stepper<Problem<M, F, S, Relative>, Rk4>,
 }
 
 impl<S: Real, M: Plant, F: Tried<S>> Trial<S> for ByJoints<S, M, F> {

@@ -77,8 +77,8 @@ fn agrees<Y: System<f64>>(
 /// Inputs are those of the present, and those of the mechanism do not count.
 #[test]
 fn parameters_and_inputs_enter() {
-    let mut bodies = Dynamics::<f64, _, _>::new(&swing(), StandardLagrange).expect("sound");
-    let mut joints = Dynamics::<f64, _, _>::new(&swing(), StandardLagrange)
+    let mut bodies = Dynamics::<Problem<_, _>>::new(&swing(), StandardLagrange).expect("sound");
+    let mut joints = Dynamics::<Problem<_, _>>::new(&swing(), StandardLagrange)
         .expect("sound")
         .joint_coordinates();
     let of_bodies = beside(&Swing::initial_state(bodies.constants()), 0.1, 5);
@@ -120,7 +120,7 @@ struct Fan {
 fn states_and_tables_enter() {
     let drag = Spline::natural([-2.0, 0.5, 1.0, 2.0], [-0.9, 0.1, 0.4, 2.0]);
     let fan = Fan::new(drag).expect("sound");
-    let mut bodies = Dynamics::<f64, _, _>::new(&fan, StandardLagrange).expect("sound");
+    let mut bodies = Dynamics::<Problem<_, _>>::new(&fan, StandardLagrange).expect("sound");
     let mut joints = bodies.clone().joint_coordinates();
     let mut of_bodies = Fan::initial_state(bodies.constants());
     fan.set_angle_rate(&mut of_bodies, Fan::HANDLES.shaft, 0.8)
@@ -152,12 +152,12 @@ fn closures_enter_by_differences_of_their_forces() {
         formulation: F,
         drag: impl Fn(f64, &<Swing as Mechanism>::State<f64>, &mut Loads<'_, f64, Swing>) + Copy,
     ) {
-        let bodies = Dynamics::<f64, _, _>::new(swing, formulation).expect("sound");
+        let bodies = Dynamics::<Problem<_, _>>::new(swing, formulation).expect("sound");
         let state = beside(&Swing::initial_state(bodies.constants()), 0.1, 7);
         let without = offered(&mut bodies.clone(), &state).0;
         let with = agrees("bodies", &mut bodies.forces(drag), &state, (27, CLOSURE));
         assert!((with - without).amax() > 0.1);
-        let joints = Dynamics::<f64, _, _>::new(swing, formulation)
+        let joints = Dynamics::<Problem<_, _>>::new(swing, formulation)
             .expect("sound")
             .joint_coordinates();
         let state = beside(&joints.initial_state().expect("assembled"), 0.3, 8);
@@ -178,7 +178,7 @@ fn euler_parameters_are_read_as_by_the_evaluation() {
             gain: 2.0,
             ..swing()
         };
-        let dynamics = Dynamics::<f64, _, _>::new(&swing, Baumgarte::default()).expect("sound");
+        let dynamics = Dynamics::<Problem<_, _>>::new(&swing, Baumgarte::default()).expect("sound");
         let mut dynamics = dynamics.orientation::<P>();
         let state = beside(&Swing::initial_state(dynamics.constants()), 0.1, 9);
         let matrix = agrees("as read", &mut dynamics, &state, (27, EXACT));
@@ -198,10 +198,10 @@ fn single_precision_has_its_digits() {
         gain: 2.0,
         ..swing()
     };
-    let mut double = Dynamics::<f64, _, _>::new(&swing, StandardLagrange)
+    let mut double = Dynamics::<Problem<_, _>>::new(&swing, StandardLagrange)
         .expect("sound")
         .joint_coordinates();
-    let mut single = Dynamics::<f32, _, _>::new(&swing, StandardLagrange)
+    let mut single = Dynamics::<Problem<_, _, f32>>::new(&swing, StandardLagrange)
         .expect("sound")
         .joint_coordinates();
     let state = beside(&double.initial_state().expect("assembled"), 0.3, 10);
@@ -236,7 +236,8 @@ fn where_there_is_no_derivative_differences_stand_in() {
         #[force(between = [ground, cart], head = [0.0, 0.0, 0.0], tail = [0.5, 0.0, 0.0], force = -sqrt(length - 0.5))]
         spring: Actuator,
     }
-    let mut bodies = Dynamics::<f64, _, _>::new(&Cart::default(), StandardLagrange).expect("sound");
+    let mut bodies =
+        Dynamics::<Problem<_, _>>::new(&Cart::default(), StandardLagrange).expect("sound");
     let state = Cart::initial_state(bodies.constants());
     let (matrix, count) = offered(&mut bodies, &state);
     assert_eq!(count, 6);

@@ -10,7 +10,7 @@ mod laws;
 
 use holonom::{
     Baumgarte, Formulation, JointCoordinates, Mechanism, Penalty, StandardLagrange, StateParts,
-    dynamics::Dynamics,
+    dynamics::{Dynamics, Problem},
     integrate::System,
     mechanism::JointParts,
     state::{Array, MovingState, Vector},
@@ -251,7 +251,7 @@ fn next<X: Vector<f64>>(state: &X) -> X {
 
 fn formulated<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulation: F) {
     let name = format!("{} {formulation:?}", M::REPORT.name);
-    let mut bodies = Dynamics::<f64, M, F>::new(mechanism, formulation)
+    let mut bodies = Dynamics::<Problem<M, F>>::new(mechanism, formulation)
         .expect("sound")
         .absolute_coordinates();
     let start = M::initial_state(bodies.constants());
@@ -270,7 +270,7 @@ fn formulated<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulati
             &finite,
         );
     }
-    let mut joints = Dynamics::<f64, M, F>::new(mechanism, formulation)
+    let mut joints = Dynamics::<Problem<M, F>>::new(mechanism, formulation)
         .expect("sound")
         .joint_coordinates();
     let start = joints.initial_state().expect("assembled");

@@ -469,7 +469,7 @@ fn single_precision_in_both_descriptions() {
 /// What a stage takes is what an evaluation gives, which has the multipliers besides.
 fn stages<M: JointCoordinates, F: Formulation<f64>>(mechanism: &M, formulation: F, step: f64) {
     use holonom::integrate::System;
-    let mut dynamics = Dynamics::<f64, _, _>::new(mechanism, formulation)
+    let mut dynamics = Dynamics::<Problem<_, _>>::new(mechanism, formulation)
         .expect("acceptable")
         .joint_coordinates();
     let mut state = dynamics.initial_state().expect("consistent");
@@ -502,10 +502,10 @@ fn a_stage_computes_what_an_evaluation_does() {
 fn descriptions_take_turns() {
     let loose = Loose::default();
     let start = loose.start();
-    let mut joints = Dynamics::<f64, _, _>::new(&loose, StandardLagrange)
+    let mut joints = Dynamics::<Problem<_, _>>::new(&loose, StandardLagrange)
         .expect("acceptable")
         .joint_coordinates();
-    let mut bodies = holonom::dynamics::Dynamics::<f64, _, _>::new(&loose, StandardLagrange)
+    let mut bodies = holonom::dynamics::Dynamics::<Problem<_, _>>::new(&loose, StandardLagrange)
         .expect("acceptable")
         .absolute_coordinates();
     let mut alone = joints.state_of(&start).expect("consistent");

@@ -385,7 +385,7 @@ fn equations_that_hold_but_for_round_off_are_not_the_ones_that_are_kept() {
         assert!((angle - welded).abs() < 1e-8, "{angle} for {welded}");
     }
 
-    let joints = Dynamics::<f64, _, _>::new(&locked, StandardLagrange)
+    let joints = Dynamics::<Problem<_, _>>::new(&locked, StandardLagrange)
         .expect("it is sound")
         .joint_coordinates();
     let start = joints.initial_state().expect("it is sound");

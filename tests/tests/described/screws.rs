@@ -173,7 +173,7 @@ fn displacements_go_with_all_turns() {
 #[test]
 fn a_screw_stays_on_its_thread_in_single_precision() {
     let feed = Feed::new(0.02).expect("acceptable");
-    let mut stepper = Stepper::<f32, _, _, _>::new(&feed, StandardLagrange, Rk4)
+    let mut stepper = Stepper::<Problem<_, _, f32>, _>::new(&feed, StandardLagrange, Rk4)
         .expect("one")
         .joint_coordinates();
     let mut start = feed.described_state::<f32>().expect("described");
@@ -203,7 +203,7 @@ fn a_nut_beside_its_thread_is_refused() {
     let mut pose = Feed::pose(&state, Feed::HANDLES.spindle);
     pose.position += Vector3::new(1e-3, 0.0, 1e-2);
     Feed::set_pose(&mut state, Feed::HANDLES.spindle, pose);
-    let dynamics = Dynamics::<f64, _, _>::new(&feed, StandardLagrange)
+    let dynamics = Dynamics::<Problem<_, _>>::new(&feed, StandardLagrange)
         .expect("one")
         .joint_coordinates();
     let refused = dynamics.state_of(&state).expect_err("it is open");

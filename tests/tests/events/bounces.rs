@@ -17,7 +17,7 @@ const RESTITUTION: f64 = 0.7;
 fn impacts<I, C>(integrator: I, end: f64) -> Vec<f64>
 where
     C: Coordinates<Ball>,
-    I: Runs<f64, Ball, StandardLagrange, C>,
+    I: Runs<Problem<Ball, StandardLagrange, f64, C>>,
 {
     let (ball, rail) = (Ball::default(), Ball::HANDLES.rail);
     let mut times = Vec::new();
@@ -56,7 +56,8 @@ fn exact(end: f64) -> Vec<f64> {
 
 fn agrees<I>(name: &str, integrator: I)
 where
-    I: Runs<f64, Ball, StandardLagrange, Absolute> + Runs<f64, Ball, StandardLagrange, Relative>,
+    I: Runs<Problem<Ball, StandardLagrange, f64, Absolute>>
+        + Runs<Problem<Ball, StandardLagrange, f64, Relative>>,
 {
     agrees_with(name, impacts::<I, Absolute>(integrator, 2.4));
     agrees_with(name, impacts::<I, Relative>(integrator, 2.4));
@@ -113,7 +114,7 @@ fn elliptic(k: f64) -> f64 {
 fn pendulum<I, C>(name: &str, integrator: I, bound: f64)
 where
     C: Coordinates<Rod>,
-    I: Runs<f64, Rod, StandardLagrange, C>,
+    I: Runs<Problem<Rod, StandardLagrange, f64, C>>,
 {
     let (rod, hinge) = (Rod::default(), Rod::HANDLES.hinge);
     let mut times = Vec::new();

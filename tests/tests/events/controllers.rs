@@ -59,7 +59,7 @@ fn exact(period: f64, periods: usize) -> f64 {
 fn error<I, C>(integrator: I, period: f64, end: f64) -> f64
 where
     C: Coordinates<Slider>,
-    I: Runs<f64, Slider, StandardLagrange, C>,
+    I: Runs<Problem<Slider, StandardLagrange, f64, C>>,
 {
     let (slider, h) = (Slider::new(DAMPING).expect("acceptable"), Slider::HANDLES);
     let mut pid = Pid::new(period);

@@ -6,7 +6,7 @@ use holonom::{Adams, AdamsBashforthMoulton4, Bdf, RadauIIA, Runs};
 use super::{Ball, GRAVITY, Slider, height, tight};
 
 /// How a ball ends that bounces ever shorter, and what it loses.
-fn zeno<I: Runs<f64, Ball, StandardLagrange>>(integrator: I, restitution: f64) -> Fault {
+fn zeno<I: Runs<Problem<Ball, StandardLagrange>>>(integrator: I, restitution: f64) -> Fault {
     let (ball, rail) = (Ball::default(), Ball::HANDLES.rail);
     let error = Simulation::new(&ball, StandardLagrange, integrator)
         .on("floor", Crossing::Falling, height, |event| {

@@ -37,7 +37,7 @@ fn a_handler_changes_parameters() {
     fn run<C: Coordinates<Slider>>()
     where
         holonom::integrate::Adaptive<f64, holonom::integrate::DormandPrince5>:
-            Runs<f64, Slider, StandardLagrange, C>,
+            Runs<Problem<Slider, StandardLagrange, f64, C>>,
     {
         let (slider, h) = (Slider::new(0.0).expect("acceptable"), Slider::HANDLES);
         let mut start = slider.described_state().expect("described");

@@ -1,6 +1,5 @@
 //! A run that its caller leads, against the same run with an observer.
 
-use holonom::dynamics::Problem;
 use holonom::prelude::*;
 use holonom::run::{Leads, Reached, Run};
 use holonom::{Adams, DormandPrince853, RadauIIA, Runs};
@@ -10,12 +9,12 @@ use super::{Ball, GRAVITY, Slider, height, tight};
 const RESTITUTION: f64 = 0.7;
 const END: f64 = 2.4;
 
-type Solved<M> = Problem<f64, M, StandardLagrange>;
+type Solved<M> = Problem<M, StandardLagrange>;
 
 /// A loop of one's own over a ball that bounces, and the observer's: times, states, counts.
 fn agrees<I>(integrator: I)
 where
-    I: Runs<f64, Ball, StandardLagrange> + Leads<Solved<Ball>>,
+    I: Runs<Problem<Ball, StandardLagrange>> + Leads<Solved<Ball>>,
 {
     let (ball, rail) = (Ball::default(), Ball::HANDLES.rail);
     let bounce = move |event: &mut holonom::run::Event<'_, f64, Ball>| {

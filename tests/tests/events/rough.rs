@@ -30,7 +30,7 @@ struct Rocker {
 fn passages<I, C>(integrator: I) -> Vec<f64>
 where
     C: Coordinates<Rocker>,
-    I: Runs<f64, Rocker, StandardLagrange, C>,
+    I: Runs<Problem<Rocker, StandardLagrange, f64, C>>,
 {
     let (rocker, h) = (Rocker::default(), Rocker::HANDLES);
     let mut times = Vec::new();
@@ -144,7 +144,7 @@ fn a_run_may_be_repeated_and_has_no_length() {
 }
 
 /// How many evaluations a run over an interval of the last digits takes.
-fn evaluations<I: Runs<f64, Ball, StandardLagrange>>(integrator: I, start: f64) -> usize {
+fn evaluations<I: Runs<Problem<Ball, StandardLagrange>>>(integrator: I, start: f64) -> usize {
     let ball = Ball::default();
     let run = ball.simulation(StandardLagrange, integrator);
     let report = run.run(start..=2.0, every_step(), |_| ());

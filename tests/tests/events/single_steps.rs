@@ -11,7 +11,7 @@ use super::{Ball, GRAVITY};
 fn bounces<K, C>(scheme: K, dt: f64)
 where
     C: Coordinates<Ball>,
-    K: Steps<f64, Ball, StandardLagrange, C>,
+    K: Steps<Problem<Ball, StandardLagrange, f64, C>>,
 {
     let (ball, h) = (Ball::default(), Ball::HANDLES);
     let mut stepper = Stepper::new(&ball, StandardLagrange, scheme)

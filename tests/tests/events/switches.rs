@@ -16,7 +16,7 @@ fn slider() -> Slider {
 fn bang_bang<I, C>(integrator: I) -> f64
 where
     C: Coordinates<Slider>,
-    I: Runs<f64, Slider, StandardLagrange, C>,
+    I: Runs<Problem<Slider, StandardLagrange, f64, C>>,
 {
     let (mut slider, h) = (slider(), Slider::HANDLES);
     slider.push = -1.0;
@@ -56,7 +56,7 @@ fn a_force_by_the_sign_of_the_place_is_right_after_ten_periods() {
 fn square_wave<I, C>(integrator: I, periodic: bool) -> f64
 where
     C: Coordinates<Slider>,
-    I: Runs<f64, Slider, StandardLagrange, C>,
+    I: Runs<Problem<Slider, StandardLagrange, f64, C>>,
 {
     let (mut slider, h) = (slider(), Slider::HANDLES);
     slider.push = 10.0;

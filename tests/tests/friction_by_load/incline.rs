@@ -1,6 +1,5 @@
 //! A block on an inclined plane.
 
-use holonom::dynamics::Problem;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::InteractionMode as Mode;
@@ -215,7 +214,7 @@ fn steps_and_single_precision() {
     incline
         .set_displacement_rate(&mut start, h.slide, -2.0)
         .expect("it is free");
-    let report = Simulation::<Problem<f32, _, _>, _>::new(
+    let report = Simulation::<Problem<_, _, f32>, _>::new(
         &incline,
         StandardLagrange,
         DormandPrince::<f32>::default(),

@@ -62,7 +62,7 @@ fn pendulum<F, I, C>(name: &str, formulation: F, integrator: I, bound: f64)
 where
     F: Formulation<f64>,
     C: Coordinates<Rod>,
-    I: Runs<f64, Rod, F, C, Interacting<f64, Rod, NoForces, 1>>,
+    I: Runs<Problem<Rod, F, f64, C, Interacting<f64, Rod, NoForces, 1>>>,
 {
     const RESTITUTION: f64 = 0.7;
     let (rod, hinge) = (Rod::default(), Rod::HANDLES.hinge);

@@ -226,7 +226,7 @@ fn what_does_not_heed_them_refuses() {
     left_out(stepper.step_dense(&mut state, 0.01).expect_err("one"));
     let mut free = stepper.without_limits();
     assert!(free.step_dense(&mut state, 0.01).is_ok());
-    let ensemble = Ensemble::<f64, _, _, _, _, 1>::new(&[shaft], StandardLagrange, Rk4);
+    let ensemble = Ensemble::<Problem<_, _>, _, 1>::new(&[shaft], StandardLagrange, Rk4);
     let mut ensemble = ensemble.expect("acceptable");
     left_out(ensemble.step(0.01).expect_err("it has none"));
     assert_eq!(ensemble.without_limits().step(0.01), Ok(()));

@@ -2,7 +2,6 @@
 
 use core::f64::consts::PI;
 
-use holonom::dynamics::Problem;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::InteractionMode;
@@ -128,7 +127,7 @@ fn single_precision_comes_to_rest_as_well() {
     let (ball, rail) = (Ball::default(), Ball::HANDLES.rail);
     let stop = rail.displacement().limits();
     let integrator = DormandPrince::<f32>::default();
-    let report = Simulation::<Problem<f32, _, _>, _>::new(&ball, StandardLagrange, integrator)
+    let report = Simulation::<Problem<_, _, f32>, _>::new(&ball, StandardLagrange, integrator)
         .interactions([Interaction::limits(rail.displacement(), [-1.0, 1.0]).restitution(0.5)])
         .run(0.0..=4.0, every(0.1), |sample| {
             assert!(sample.displacement(rail) > -1.0 - 1e-5);

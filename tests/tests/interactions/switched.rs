@@ -35,7 +35,7 @@ struct Shuttle {
 }
 
 /// At the end of 3.3 s: 0.05 m at 1 m/s up to 0.3 s, the upper stop at 0.8 s, the lower at 2.3 s.
-fn crossed<C: Coordinates<Shuttle>>(method: impl Runs<f64, Shuttle, StandardLagrange, C>) {
+fn crossed<C: Coordinates<Shuttle>>(method: impl Runs<Problem<Shuttle, StandardLagrange, f64, C>>) {
     let (shuttle, h) = (Shuttle::default(), Shuttle::HANDLES);
     let mut calls = 0;
     let mut end = [0.0; 4];

@@ -10,7 +10,7 @@ use super::{Ball, GRAVITY, Rod, tight};
 /// The angle and its rate after some seconds, by a companion too.
 fn swung<I>(integrator: I, seconds: f64) -> (f64, f64)
 where
-    I: Runs<f64, Rod, StandardLagrange, Relative, Interacting<f64, Rod, NoForces, 2>>,
+    I: Runs<Problem<Rod, StandardLagrange, f64, Relative, Interacting<f64, Rod, NoForces, 2>>>,
 {
     let (rod, hinge) = (Rod::default(), Rod::HANDLES.hinge);
     let mut angle = f64::NAN;

@@ -11,7 +11,7 @@
 
 use holonom::{
     AugmentedLagrangian, Real, StateParts,
-    dynamics::Dynamics,
+    dynamics::{Dynamics, Problem},
     mechanism::{Compliant, Plain, Stabilisation, Stabilised, Terms},
     state::Array,
 };
@@ -221,7 +221,7 @@ fn with_a_compliance<M: Scene>() {
 fn augmented_lagrangian<M: Scene>() {
     let scene = M::read_as(bodies::Orientation::Normalised);
     let method = AugmentedLagrangian::<f64>::default();
-    let dynamics = Dynamics::<f64, M, _>::new(&M::default(), method)
+    let dynamics = Dynamics::<Problem<M, _>>::new(&M::default(), method)
         .expect("acceptable")
         .absolute_coordinates();
     let mut worst = Worst::default();

@@ -103,7 +103,7 @@ fn the_described_state_is_the_same() {
 
 /// Rates, and the energies, at a state.
 fn motion<M: Mechanism + Default, F: Formulation<f64>>(method: F, x: &[f64]) -> Vec<f64> {
-    let dynamics = Dynamics::<f64, M, F>::new(&M::default(), method)
+    let dynamics = Dynamics::<Problem<M, F>>::new(&M::default(), method)
         .expect("acceptable")
         .absolute_coordinates();
     let state = state::<f64, M>(x);
@@ -164,7 +164,7 @@ fn angle_and_reaction_are_the_same() {
         read: impl Fn(&holonom::View<'_, f64, M>, &M::Multipliers<f64>) -> Vec<f64>,
     ) -> Vec<f64> {
         let method = Baumgarte::default();
-        let dynamics = Dynamics::<f64, M, _>::new(&M::default(), method)
+        let dynamics = Dynamics::<Problem<M, _>>::new(&M::default(), method)
             .expect("acceptable")
             .absolute_coordinates();
         let state = state::<f64, M>(x);

@@ -2,7 +2,9 @@
 //! lose digits as alpha grows: how many is printed.
 
 use holonom::{
-    AugmentedLagrangian, Formulation, Penalty, StateParts, dynamics::Dynamics, state::Array,
+    AugmentedLagrangian, Formulation, Penalty, StateParts,
+    dynamics::{Dynamics, Problem},
+    state::Array,
 };
 use holonom_assembler::bodies::Orientation;
 use holonom_assembler::formulation::{self, Evaluator};
@@ -32,7 +34,7 @@ fn deviation<M: Scene, F: Formulation<f64>>(
     textbook: formulation::Formulation,
 ) -> (f64, f64) {
     let scene = M::read_as(Orientation::Normalised);
-    let dynamics = Dynamics::<f64, M, F>::new(&M::default(), method)
+    let dynamics = Dynamics::<Problem<M, F>>::new(&M::default(), method)
         .expect("acceptable")
         .absolute_coordinates();
     let mut evaluator = Evaluator::new(scene.clone(), textbook);

@@ -96,7 +96,7 @@ fn a_moment_in_body_axes_turns_the_body_as_its_tensor_says() {
     let moment = Vector3::new(0.3, -0.2, 0.5);
     let weak = Penalty::new(1e-9, 1e-3, 1.0);
     let dynamics =
-        holonom::dynamics::Dynamics::<f64, FullTensors, _>::new(&FullTensors::default(), weak)
+        holonom::dynamics::Dynamics::<Problem<FullTensors, _>>::new(&FullTensors::default(), weak)
             .expect("acceptable")
             .forces(|_, _, loads| loads.moment_in_body_axes(HANDLES.tilted, moment.into()));
     let state = FullTensors::default()

@@ -49,7 +49,7 @@ fn it_has_order_2_on_the_pendulum_with_any_damping() {
 
 fn end<M: Mechanism>(
     model: &M,
-    integrator: impl Runs<f64, M, StandardLagrange, Absolute>,
+    integrator: impl Runs<Problem<M, StandardLagrange, f64, Absolute>>,
     time: f64,
 ) -> (M::State<f64>, usize, usize) {
     let report = Simulation::new(model, StandardLagrange, integrator)

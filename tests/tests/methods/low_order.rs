@@ -17,14 +17,14 @@ use holonom_models::{
 
 /// Methods that take steps of the rod in both coordinates.
 trait Steps:
-    run::Steps<f64, RodPendulum, StandardLagrange>
-    + run::Steps<f64, RodPendulum, StandardLagrange, Relative>
+    run::Steps<Problem<RodPendulum, StandardLagrange>>
+    + run::Steps<Problem<RodPendulum, StandardLagrange, f64, Relative>>
 {
 }
 
 impl<K> Steps for K where
-    K: run::Steps<f64, RodPendulum, StandardLagrange>
-        + run::Steps<f64, RodPendulum, StandardLagrange, Relative>
+    K: run::Steps<Problem<RodPendulum, StandardLagrange>>
+        + run::Steps<Problem<RodPendulum, StandardLagrange, f64, Relative>>
 {
 }
 
@@ -70,7 +70,7 @@ fn moves_by_new_velocities<M: JointCoordinates + Default>() {
     let mut start = mechanism.described_state::<f64>().expect("described");
     mechanism.assemble(0.0, &mut start).expect("regular");
     let (time, step) = (0.3, 0.01);
-    let mut bodies = Dynamics::<f64, M, _>::new(&mechanism, Penalty::default())
+    let mut bodies = Dynamics::<Problem<M, _>>::new(&mechanism, Penalty::default())
         .expect("fine")
         .absolute_coordinates();
     let mut rates = bodies.rates(time, &start).expect("regular");
@@ -93,7 +93,7 @@ fn moves_by_new_velocities<M: JointCoordinates + Default>() {
         );
     }
 
-    let mut joints = Dynamics::<f64, M, _>::new(&mechanism, Penalty::default())
+    let mut joints = Dynamics::<Problem<M, _>>::new(&mechanism, Penalty::default())
         .expect("fine")
         .joint_coordinates();
     let start = joints.state_of(&start).expect("consistent");
@@ -155,10 +155,10 @@ fn an_augmented_lagrangian_of_a_known_cost() {
     let state = crank.described_state::<f64>().expect("described");
     let formulation = AugmentedLagrangian::default();
     let evaluate = |formulation| {
-        let dynamics = Dynamics::<f64, DrivenSliderCrank, _>::new(&crank, formulation)?;
+        let dynamics = Dynamics::<Problem<DrivenSliderCrank, _>>::new(&crank, formulation)?;
         let (evaluation, solutions) = dynamics.evaluate(0.0, &state)?;
-        let joints =
-            Dynamics::<f64, DrivenSliderCrank, _>::new(&crank, formulation)?.joint_coordinates();
+        let joints = Dynamics::<Problem<DrivenSliderCrank, _>>::new(&crank, formulation)?
+            .joint_coordinates();
         let (evaluated, _) = joints.evaluate(0.0, &joints.state_of(&state)?)?;
         Ok::<_, Fault>((evaluation.rates, solutions, evaluated.rates))
     };
@@ -185,13 +185,14 @@ fn an_augmented_lagrangian_of_a_known_cost() {
     );
     // Not converged by far, in either description.
     let weak = AugmentedLagrangian::new(1.0, 10.0, 1.0).exactly(2);
-    let dynamics = Dynamics::<f64, DrivenSliderCrank, _>::new(&crank, weak).expect("acceptable");
+    let dynamics =
+        Dynamics::<Problem<DrivenSliderCrank, _>>::new(&crank, weak).expect("acceptable");
     let fault = dynamics.evaluate(0.0, &state).err();
     assert!(
         matches!(fault, Some(Fault::NotConverged { iterations: 2, .. })),
         "{fault:?}"
     );
-    let joints = Dynamics::<f64, DrivenSliderCrank, _>::new(&crank, weak)
+    let joints = Dynamics::<Problem<DrivenSliderCrank, _>>::new(&crank, weak)
         .expect("acceptable")
         .joint_coordinates();
     let start = joints.state_of(&state).expect("consistent");

@@ -41,7 +41,7 @@ const fn halved(step: f64) -> [f64; 4] {
 /// turns back.
 fn of_the_pendulum<F: Formulation<f64>>(
     method: F,
-    integrator: impl Runs<f64, RodPendulum, F>,
+    integrator: impl Runs<Problem<RodPendulum, F>>,
     swing: Swing,
 ) -> f64 {
     const FREQUENCY: f64 = 3.8356;
@@ -89,12 +89,12 @@ const TOP: [f64; 4] = [
 ];
 
 /// The error of the top's Euler parameters, up to their sign.
-fn of_the_top(integrator: impl Runs<f64, HeavyTop, StandardLagrange>) -> f64 {
+fn of_the_top(integrator: impl Runs<Problem<HeavyTop, StandardLagrange>>) -> f64 {
     top_and_steps(integrator).0
 }
 
 /// The same with the steps that it took.
-fn top_and_steps(integrator: impl Runs<f64, HeavyTop, StandardLagrange>) -> (f64, usize) {
+fn top_and_steps(integrator: impl Runs<Problem<HeavyTop, StandardLagrange>>) -> (f64, usize) {
     let top = HeavyTop::default();
     let report = Simulation::new(&top, StandardLagrange, integrator)
         .run(
@@ -176,7 +176,7 @@ fn tolerance(relative: f64) -> Tolerance<f64> {
 }
 
 /// The order at which errors fall with the number of steps.
-fn order_of_steps<I: Runs<f64, HeavyTop, StandardLagrange>>(
+fn order_of_steps<I: Runs<Problem<HeavyTop, StandardLagrange>>>(
     method: impl Fn(f64) -> I,
     tolerances: [f64; 2],
 ) -> f64 {

@@ -44,7 +44,7 @@ pub(crate) fn angle<S: Real, M: Mechanism, J: HasAngle>(
 }
 
 /// `phi` and `phi'` at the end of a run from 0 to `end`.
-pub(crate) fn final_swing<F: Formulation<f64>, I: Runs<f64, RodPendulum, F>>(
+pub(crate) fn final_swing<F: Formulation<f64>, I: Runs<Problem<RodPendulum, F>>>(
     method: F,
     integrator: I,
     end: f64,

@@ -22,7 +22,7 @@ use holonom_fixtures as _;
 
 /// An integrator that moves a mechanism with so many interactions.
 trait Moves<M: Mechanism, C: Coordinates<M>, const K: usize>:
-    Runs<f64, M, StandardLagrange, C, Interacting<f64, M, NoForces, K>>
+    Runs<Problem<M, StandardLagrange, f64, C, Interacting<f64, M, NoForces, K>>>
 {
 }
 
@@ -30,7 +30,7 @@ impl<I, M, C, const K: usize> Moves<M, C, K> for I
 where
     M: Mechanism,
     C: Coordinates<M>,
-    I: Runs<f64, M, StandardLagrange, C, Interacting<f64, M, NoForces, K>>,
+    I: Runs<Problem<M, StandardLagrange, f64, C, Interacting<f64, M, NoForces, K>>>,
 {
 }
 

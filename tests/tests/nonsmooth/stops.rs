@@ -171,7 +171,7 @@ fn formulated<F, C>(formulation: F) -> (Vec<f64>, f64)
 where
     F: Formulation<f64>,
     C: Coordinates<FourBar>,
-    DormandPrince<f64>: Runs<f64, FourBar, F, C, Interacting<f64, FourBar, NoForces, 1>>,
+    DormandPrince<f64>: Runs<Problem<FourBar, F, f64, C, Interacting<f64, FourBar, NoForces, 1>>>,
 {
     let [_, _, stop] = reference::FOUR_BAR_ANGLES;
     let (four_bar, h) = (FourBar::default(), FourBar::HANDLES);

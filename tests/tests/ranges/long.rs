@@ -15,7 +15,7 @@ struct Spinning {
 
 /// Whether a run has a warning, and the largest change of energy (of what it exchanges) that the
 /// observer saw.
-fn long<M: Mechanism, F: Formulation<f64>, I: Runs<f64, M, F>>(
+fn long<M: Mechanism, F: Formulation<f64>, I: Runs<Problem<M, F>>>(
     model: &M,
     (method, integrator, projected): (F, I, bool),
     duration: f64,

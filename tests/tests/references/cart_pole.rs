@@ -44,7 +44,8 @@ fn accelerates_as_the_closed_form_says() {
         CartPole::set_velocity(&mut state, handles.cart, along);
         CartPole::set_velocity(&mut state, handles.pole, along + spin.cross(&pole));
         CartPole::set_angular_velocity_global(&mut state, handles.pole, spin);
-        let dynamics = Dynamics::<f64, CartPole, _>::new(&model, StandardLagrange).expect("sound");
+        let dynamics =
+            Dynamics::<Problem<CartPole, _>>::new(&model, StandardLagrange).expect("sound");
         let (evaluation, _) = dynamics.evaluate(0.0, &state).expect("regular");
         let mut rates = state;
         *rates.velocities_mut() = *evaluation.rates.velocities();

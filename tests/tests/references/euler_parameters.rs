@@ -155,15 +155,15 @@ fn euler_parameters(state: &<Free as Mechanism>::State<f64>) -> [f64; 4] {
 /// Methods that move all of these.
 trait Steps:
     OneStep<f64, Turning>
-    + run::Steps<f64, Free, StandardLagrange, Absolute>
-    + run::Steps<f64, Free, StandardLagrange, Relative>
+    + run::Steps<Problem<Free, StandardLagrange, f64, Absolute>>
+    + run::Steps<Problem<Free, StandardLagrange, f64, Relative>>
 {
 }
 
 impl<K> Steps for K where
     K: OneStep<f64, Turning>
-        + run::Steps<f64, Free, StandardLagrange, Absolute>
-        + run::Steps<f64, Free, StandardLagrange, Relative>
+        + run::Steps<Problem<Free, StandardLagrange, f64, Absolute>>
+        + run::Steps<Problem<Free, StandardLagrange, f64, Relative>>
 {
 }
 
@@ -178,7 +178,7 @@ fn of_a_system<K: OneStep<f64, Turning>>(scheme: K, axis: [f64; 3], speed: f64) 
     p
 }
 
-fn of_a_body<K: run::Steps<f64, Free, StandardLagrange, Absolute>>(
+fn of_a_body<K: run::Steps<Problem<Free, StandardLagrange, f64, Absolute>>>(
     scheme: K,
     axis: [f64; 3],
     speed: f64,
@@ -193,12 +193,12 @@ fn of_a_body<K: run::Steps<f64, Free, StandardLagrange, Absolute>>(
     euler_parameters(&state)
 }
 
-fn of_a_ball<K: run::Steps<f64, Free, StandardLagrange, Relative>>(
+fn of_a_ball<K: run::Steps<Problem<Free, StandardLagrange, f64, Relative>>>(
     scheme: K,
     axis: [f64; 3],
     speed: f64,
 ) -> [f64; 4] {
-    let mut stepper = Stepper::<f64, _, _, _>::new(&Free::default(), StandardLagrange, scheme)
+    let mut stepper = Stepper::<Problem<_, _>, _>::new(&Free::default(), StandardLagrange, scheme)
         .expect("acceptable")
         .joint_coordinates();
     let mut state = stepper.state_of(&turning(axis, speed)).expect("consistent");

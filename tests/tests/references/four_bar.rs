@@ -104,7 +104,7 @@ fn the_energy_stays() {
 
 /// Position (m) and velocity (m/s) of the pin after five turns in 10 s and ten times on a line, and
 /// the largest change of the energy (J) on the way.
-fn five_turns<M: Mechanism, F: Formulation<f64>, I: Runs<f64, M, F>>(
+fn five_turns<M: Mechanism, F: Formulation<f64>, I: Runs<Problem<M, F>>>(
     model: &M,
     (left, reference): (BodyHandle<M>, [f64; 4]),
     method: F,

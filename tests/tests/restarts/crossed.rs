@@ -36,7 +36,7 @@ fn fan() -> Fan {
     fan
 }
 
-fn of<C: Coordinates<Fan>>(method: impl Runs<f64, Fan, StandardLagrange, C> + Copy) {
+fn of<C: Coordinates<Fan>>(method: impl Runs<Problem<Fan, StandardLagrange, f64, C>> + Copy) {
     let fan: &'static Fan = Box::leak(Box::new(fan()));
     let build = || Simulation::new(fan, StandardLagrange, method).coordinates::<C>();
     goes_on("a fan", &build, every(0.013));

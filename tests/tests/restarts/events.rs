@@ -30,7 +30,7 @@ fn run<I, C>(
 ) -> (RunReport<f64, Flap>, Shown<Flap>, usize, Vec<Kept>)
 where
     C: Coordinates<Flap>,
-    I: Runs<f64, Flap, StandardLagrange, C>,
+    I: Runs<Problem<Flap, StandardLagrange, f64, C>>,
 {
     let (flap, h) = (flap(), Flap::HANDLES);
     let memory = Cell::new(from.map_or(Controller::default(), |kept| kept.1));
@@ -82,7 +82,7 @@ where
 fn goes_on<I, C>(what: &str, method: I)
 where
     C: Coordinates<Flap>,
-    I: Runs<f64, Flap, StandardLagrange, C>,
+    I: Runs<Problem<Flap, StandardLagrange, f64, C>>,
 {
     let (report, shown, met, kept) = run::<I, C>(method, None, 2.0);
     assert!(met > 3, "{what}: {met}");

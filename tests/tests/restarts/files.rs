@@ -54,7 +54,7 @@ struct Rod {
 fn of<M: Mechanism, I, C>(mechanism: &M, method: I) -> Checkpoint<M>
 where
     C: Coordinates<M>,
-    I: Runs<f64, M, StandardLagrange, C>,
+    I: Runs<Problem<M, StandardLagrange, f64, C>>,
 {
     let mut last = None;
     Simulation::new(mechanism, StandardLagrange, method)

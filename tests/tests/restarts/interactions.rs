@@ -87,7 +87,7 @@ fn interactions(mill: &Mill, is_short: bool) -> [Interaction<f64, Mill>; INTERAC
 fn run<I, C>(method: I, from: Option<&Kept>, end: f64) -> (RunReport<f64, Mill>, Shown, Vec<Kept>)
 where
     C: Coordinates<Mill>,
-    I: Runs<f64, Mill, StandardLagrange, C, Forces>,
+    I: Runs<Problem<Mill, StandardLagrange, f64, C, Forces>>,
 {
     let (mill, h) = (Mill::default(), Mill::HANDLES);
     let interactions = interactions(&mill, end <= SHORT);
@@ -169,7 +169,7 @@ fn meets_everything(what: &str, shown: &Shown) {
 fn goes_on<I, C>(what: &str, method: I)
 where
     C: Coordinates<Mill>,
-    I: Runs<f64, Mill, StandardLagrange, C, Forces> + Copy,
+    I: Runs<Problem<Mill, StandardLagrange, f64, C, Forces>> + Copy,
 {
     goes_on_until::<I, C>(what, method, 1.5);
 }
@@ -177,7 +177,7 @@ where
 fn goes_on_until<I, C>(what: &str, method: I, end: f64)
 where
     C: Coordinates<Mill>,
-    I: Runs<f64, Mill, StandardLagrange, C, Forces> + Copy,
+    I: Runs<Problem<Mill, StandardLagrange, f64, C, Forces>> + Copy,
 {
     let (report, shown, kept) = run::<I, C>(method, None, end);
     if end > 1.0 {

@@ -11,8 +11,6 @@ mod trajectories;
 
 use std::cell::Cell;
 
-use holonom::dynamics::Problem;
-use holonom::measure::NoForces;
 use holonom::mechanism::Coordinates;
 use holonom::prelude::*;
 use holonom::run::Checkpoint;
@@ -70,13 +68,13 @@ const END: f64 = 1.0;
 /// as it is, and a run goes on from a file. How many checkpoints there were.
 fn goes_on<M, F, I, C>(
     what: &str,
-    build: &dyn Fn() -> Simulation<'static, Problem<f64, M, F, NoForces, C>, I>,
+    build: &dyn Fn() -> Simulation<'static, Problem<M, F, f64, C>, I>,
     reporting: Reporting<f64>,
 ) -> usize
 where
     M: Mechanism,
     F: Formulation<f64>,
-    I: Runs<f64, M, F, C>,
+    I: Runs<Problem<M, F, f64, C>>,
     C: Coordinates<M>,
 {
     let mut whole: Shown<M> = Vec::new();

@@ -24,7 +24,7 @@ fn with<M, F, I, C>(mechanism: &'static M, what: &str, formulation: F, method: I
 where
     M: Mechanism,
     F: Formulation<f64>,
-    I: Runs<f64, M, F, C>,
+    I: Runs<Problem<M, F, f64, C>>,
     C: Coordinates<M>,
 {
     let build = || Simulation::new(mechanism, formulation, method).assembled();
@@ -147,7 +147,7 @@ fn a_method_that_does_not_hand_over_its_memory_is_refused() {
 #[test]
 fn a_clone_of_a_stepper_goes_on() {
     let mut stepper =
-        Stepper::<f64, _, _, _>::new(&flap(), StandardLagrange, Rk4).expect("acceptable");
+        Stepper::<Problem<_, _>, _>::new(&flap(), StandardLagrange, Rk4).expect("acceptable");
     let mut state = stepper.initial_state().expect("a start");
     for _ in 0..333 {
         stepper.step(&mut state, 1e-3).expect("it moves");

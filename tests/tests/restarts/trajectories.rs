@@ -19,7 +19,7 @@ const END: f64 = 2.0;
 fn apart<I, C>(method: I, projected: bool) -> (f64, f64)
 where
     C: Coordinates<Flap>,
-    I: Runs<f64, Flap, StandardLagrange, C>,
+    I: Runs<Problem<Flap, StandardLagrange, f64, C>>,
 {
     let flap = flap();
     let mut shown: Shown<Flap> = Vec::new();
@@ -210,8 +210,8 @@ fn a_step_that_is_asked_within_is_what_observers_are_shown() {
     fn compared<K, C>(scheme: K, method: FixedStep<f64, K>)
     where
         C: Coordinates<Flap>,
-        K: Steps<f64, Flap, StandardLagrange, C>,
-        FixedStep<f64, K>: Runs<f64, Flap, StandardLagrange, C>,
+        K: Steps<Problem<Flap, StandardLagrange, f64, C>>,
+        FixedStep<f64, K>: Runs<Problem<Flap, StandardLagrange, f64, C>>,
     {
         let flap = flap();
         let mut shown: Shown<Flap> = Vec::new();

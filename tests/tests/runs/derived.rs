@@ -424,7 +424,7 @@ fn a_fixed_step_bounds_the_rates() {
         ..penalty
     };
     assert!(matches!(
-        Dynamics::<f64, _, _>::new(&bob, nothing).map(drop),
+        Dynamics::<Problem<_, _>>::new(&bob, nothing).map(drop),
         Err(Fault::Setting { value: 0.0, .. })
     ));
 }

@@ -362,7 +362,7 @@ fn an_iteration_that_does_not_converge_is_reported() {
         max_iterations: 2000,
         ..hasty
     };
-    let dynamics = Dynamics::<f64, RodPendulum, _>::new(&rod, patient).expect("acceptable");
+    let dynamics = Dynamics::<Problem<RodPendulum, _>>::new(&rod, patient).expect("acceptable");
     let state = rod.described_state().expect("described");
     let (_, iterations) = dynamics.evaluate(0.0, &state).expect("converges");
     assert!(iterations > 2);

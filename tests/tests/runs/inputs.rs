@@ -73,10 +73,10 @@ fn agree<S: Real, F: Formulation<S>>(formulation: F) {
     let step = S::constant(1e-3);
     let mut by_struct = Stepper::new(&crane, formulation, Rk4).expect("acceptable");
     let mut by_inputs = Stepper::new(&crane, formulation, Rk4).expect("acceptable");
-    let mut joints_by_struct = Stepper::<S, Crane, _, _>::new(&crane, formulation, Rk4)
+    let mut joints_by_struct = Stepper::<Problem<Crane, _, S>, _>::new(&crane, formulation, Rk4)
         .expect("acceptable")
         .joint_coordinates();
-    let mut joints_by_inputs = Stepper::<S, Crane, _, _>::new(&crane, formulation, Rk4)
+    let mut joints_by_inputs = Stepper::<Problem<Crane, _, S>, _>::new(&crane, formulation, Rk4)
         .expect("acceptable")
         .joint_coordinates();
     let mut states = [crane.described_state().expect("acceptable"); 2];
@@ -104,7 +104,7 @@ fn agree<S: Real, F: Formulation<S>>(formulation: F) {
     assert_eq!(joint_states[0], joint_states[1]);
     let [start, end] = [crane.described_state::<S>().expect("acceptable"), states[1]];
     assert!(start != end, "it moves");
-    let angle = |stepper: &Stepper<S, Crane, F, Rk4>, state| {
+    let angle = |stepper: &Stepper<Problem<Crane, F, S>, Rk4>, state| {
         stepper.view(state).angle(Crane::HANDLES.foot).to_f64()
     };
     let bodies = joints_by_inputs.bodies(&joint_states[1]);
@@ -175,7 +175,7 @@ fn an_input_beyond_the_range_of_the_run_is_refused() {
     let mut crane = crane();
     crane.thrust = 1e300;
     assert!(crane.stepper(StandardLagrange, Rk4).is_ok());
-    let fault = Stepper::<f32, _, _, _>::new(&crane, StandardLagrange, Rk4).err();
+    let fault = Stepper::<Problem<_, _, f32>, _>::new(&crane, StandardLagrange, Rk4).err();
     let Some(Fault::Parameter(error)) = fault else {
         panic!("{fault:?}")
     };

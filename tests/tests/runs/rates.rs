@@ -15,7 +15,7 @@ const RATES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
 const STEPS: [f64; 3] = [50.0, 200.0, 1000.0];
 
 /// The places of all bodies (m) at twenty times, and the evaluations.
-fn places<M: Mechanism, F: Formulation<f64>, I: Runs<f64, M, F>>(
+fn places<M: Mechanism, F: Formulation<f64>, I: Runs<Problem<M, F>>>(
     (mechanism, end): (&M, f64),
     formulation: F,
     integrator: I,

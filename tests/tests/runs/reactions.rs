@@ -92,7 +92,7 @@ fn reactions_and_weight_move_the_bodies() {
     let handles = Pair::HANDLES;
     let mut state = pair.described_state::<f64>().expect("described");
     pair.assemble(0.0, &mut state).expect("assembles");
-    let dynamics = Dynamics::<f64, Pair, _>::new(&pair, StandardLagrange).expect("acceptable");
+    let dynamics = Dynamics::<Problem<Pair, _>>::new(&pair, StandardLagrange).expect("acceptable");
     let (evaluation, _) = dynamics.evaluate(0.0, &state).expect("solvable");
     let view = dynamics.view(0.0, &state);
     let mut rates = state;
@@ -134,7 +134,8 @@ fn a_joint_has_no_reaction_on_a_body_that_is_not_its_own() {
     let pair = Pair::default();
     let handles = Pair::HANDLES;
     let state = pair.described_state::<f64>().expect("described");
-    let dynamics = Dynamics::<f64, Pair, _>::new(&pair, Penalty::default()).expect("acceptable");
+    let dynamics =
+        Dynamics::<Problem<Pair, _>>::new(&pair, Penalty::default()).expect("acceptable");
     let (evaluation, _) = dynamics.evaluate(0.0, &state).expect("solvable");
     let view = dynamics.view(0.0, &state);
     let refused = view.reaction(&evaluation.multipliers, handles.hinge, handles.lower);

@@ -29,7 +29,7 @@ fn refused<F: Formulation<f64>>(method: F) -> Fault {
         .expect_err("a bad coefficient");
     assert_eq!(error.time, 0.0);
     let by_stepper = Stepper::new(&rod, method, Rk4).expect_err("refused");
-    let by_dynamics = Dynamics::<f64, RodPendulum, F>::new(&rod, method).expect_err("refused");
+    let by_dynamics = Dynamics::<Problem<RodPendulum, F>>::new(&rod, method).expect_err("refused");
     // NaN differs from itself.
     assert_eq!(by_stepper.to_string(), error.fault.to_string());
     assert_eq!(by_dynamics.to_string(), error.fault.to_string());
@@ -72,7 +72,7 @@ fn a_coefficient_must_be_positive() {
     names(&refused(method), "max_iterations", 0.0);
 }
 
-fn run<I: holonom::Runs<f64, RodPendulum, StandardLagrange>>(
+fn run<I: holonom::Runs<Problem<RodPendulum, StandardLagrange>>>(
     integrator: I,
     interval: core::ops::RangeInclusive<f64>,
     reporting: holonom::run::Reporting<f64>,

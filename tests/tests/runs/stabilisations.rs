@@ -2,7 +2,6 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use holonom::dynamics::Problem;
 use holonom::prelude::*;
 use holonom::{
     JointCoordinates,
@@ -77,7 +76,7 @@ fn the_direct_correction_is_as_exact_as_that_by_the_mass() {
 
 /// A run of a slider-crank by a stabilisation; its largest violations of positions and velocities,
 /// and by how much its bearing, a joint of the tree, was open (m).
-fn cranked<I: holonom::Runs<f64, SliderCrank, StandardLagrange>>(
+fn cranked<I: holonom::Runs<Problem<SliderCrank, StandardLagrange>>>(
     stabilisation: &dyn PostStabilisation<f64, SliderCrank>,
     integrator: I,
 ) -> [f64; 3] {
@@ -199,7 +198,7 @@ fn recovery_keeps_the_turns_that_are_counted() {
 fn the_last_of_two_stabilisations_counts() {
     let rod = RodPendulum::default();
     let tree = TreeRecovery::new(&rod).expect("sound");
-    let end = |run: Simulation<'_, Problem<f64, _, _>, _>| {
+    let end = |run: Simulation<'_, Problem<_, _>, _>| {
         let report = run.run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()));
         report.expect("solvable").state
     };

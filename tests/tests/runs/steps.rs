@@ -13,7 +13,7 @@ const STEP: f64 = 1.0 / 128.0;
 fn by_steps<F, K>(method: F, scheme: K) -> Vec<f64>
 where
     F: Formulation<f64>,
-    K: Steps<f64, RodPendulum, F>,
+    K: Steps<Problem<RodPendulum, F>>,
 {
     let rod = RodPendulum::default();
     let mut stepper = Stepper::new(&rod, method, scheme).expect("acceptable");
@@ -28,7 +28,7 @@ where
 fn by_a_run<F, I>(method: F, integrator: I) -> Vec<f64>
 where
     F: Formulation<f64>,
-    I: Runs<f64, RodPendulum, F>,
+    I: Runs<Problem<RodPendulum, F>>,
 {
     let rod = RodPendulum::default();
     let report = Simulation::new(&rod, method, integrator)

@@ -11,12 +11,12 @@ use super::refused::Rod;
 
 /// Methods that move a mechanism with derivatives.
 trait Moves<M: Mechanism>:
-    Runs<Forward<f64, 3>, M, StandardLagrange, M::Coordinates, Unlimited<NoForces>>
+    Runs<Problem<M, StandardLagrange, Forward<f64, 3>, M::Coordinates, Unlimited<NoForces>>>
 {
 }
 
 impl<I, M: Mechanism> Moves<M> for I where
-    I: Runs<Forward<f64, 3>, M, StandardLagrange, M::Coordinates, Unlimited<NoForces>>
+    I: Runs<Problem<M, StandardLagrange, Forward<f64, 3>, M::Coordinates, Unlimited<NoForces>>>
 {
 }
 

@@ -32,8 +32,8 @@ type State = <Arm as Mechanism>::State<f64>;
 fn run<I, L>(integrator: I, law: L, joints: bool) -> Result<State, Fault>
 where
     L: Fn(f64, &State, &mut Loads<'_, f64, Arm>),
-    I: Runs<f64, Arm, StandardLagrange, Absolute, ForceLaw<L>>
-        + Runs<f64, Arm, StandardLagrange, Relative, ForceLaw<L>>,
+    I: Runs<Problem<Arm, StandardLagrange, f64, Absolute, ForceLaw<L>>>
+        + Runs<Problem<Arm, StandardLagrange, f64, Relative, ForceLaw<L>>>,
 {
     let arm = Arm::default();
     let simulation = Simulation::new(&arm, StandardLagrange, integrator).forces(law);

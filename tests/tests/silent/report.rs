@@ -154,7 +154,7 @@ type Read<'a, M> = &'a dyn Fn(&View<'_, f64, M>) -> [f64; 2];
 /// Compares what the report reads of each joint's only motion of a kind with what access by handle
 /// does.
 fn agrees<M: JointCoordinates>(mechanism: &M, joints: &[(&'static str, bool, Read<'_, M>)]) {
-    let stepper = Stepper::<f64, _, _, _>::new(mechanism, StandardLagrange, Rk4);
+    let stepper = Stepper::<Problem<_, _>, _>::new(mechanism, StandardLagrange, Rk4);
     let stepper = stepper.expect("parameters").joint_coordinates();
     let described = mechanism.described_state().expect("parameters");
     let start = stepper.state_of(&described).expect("it is consistent");

@@ -111,7 +111,7 @@ fn orientations_that_lag_are_warned_of_in_both_descriptions() {
 
 #[test]
 fn short_steps_that_lag_are_warned_of_by_as_much() {
-    fn check<I: Runs<f64, Wheel, StandardLagrange>>(integrator: I, until: f64) {
+    fn check<I: Runs<Problem<Wheel, StandardLagrange>>>(integrator: I, until: f64) {
         let wheel = Wheel::default();
         let mut off = 0.0;
         let report = Simulation::new(&wheel, StandardLagrange, integrator)

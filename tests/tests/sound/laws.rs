@@ -45,7 +45,7 @@ struct Block {
 /// change of its energy, as a part of it, and the warnings.
 fn bounce<I>(integrator: I, end: f64, reports: f64) -> (f64, Warnings)
 where
-    I: Runs<f64, Block, StandardLagrange, Absolute>,
+    I: Runs<Problem<Block, StandardLagrange, f64, Absolute>>,
 {
     let (speed, stiffness, wall) = (4.4, 4.0, 1e5);
     let block = Block::new(speed, stiffness, 0.0, wall).expect("acceptable");

@@ -38,7 +38,7 @@ impl Case {
     /// The largest distance from where the planet should be, and whether there are warnings.
     fn run<I>(&self, integrator: impl Fn(&Orbit) -> I) -> (f64, bool)
     where
-        I: Runs<f64, Orbit, StandardLagrange, Relative>,
+        I: Runs<Problem<Orbit, StandardLagrange, f64, Relative>>,
     {
         let (e, sign) = (self.eccentricity, if self.is_near { 1.0 } else { -1.0 });
         let distance = 1.0 - sign * e;

@@ -45,7 +45,7 @@ fn off(p: &[f64], turned: f64) -> f64 {
 fn errors<M, I>(mechanism: &M, rate: f64, integrator: I, duration: f64) -> [f64; 2]
 where
     M: Mechanism,
-    I: Runs<f64, M, StandardLagrange>,
+    I: Runs<Problem<M, StandardLagrange>>,
 {
     let mut worst = [0.0_f64; 2];
     Simulation::new(mechanism, StandardLagrange, integrator)

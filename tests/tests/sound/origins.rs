@@ -44,7 +44,7 @@ fn law(time: f64, _: &<Bead as Mechanism>::State<f64>, loads: &mut Loads<'_, f64
 fn origin<F, I>(method: F, integrator: I, closure: bool) -> NotFinite
 where
     F: Formulation<f64>,
-    I: Runs<f64, Bead, F> + Runs<f64, Bead, F, Absolute, ForceLaw<Law>>,
+    I: Runs<Problem<Bead, F>> + Runs<Problem<Bead, F, f64, Absolute, ForceLaw<Law>>>,
 {
     let bead = Bead::default();
     let handles = Bead::HANDLES;

@@ -71,7 +71,7 @@ struct Far {
     hinge: Revolute,
 }
 
-fn warnings<S: Real, M: Mechanism, I: Runs<S, M, StandardLagrange>>(
+fn warnings<S: Real, M: Mechanism, I: Runs<Problem<M, StandardLagrange, S>>>(
     mechanism: &M,
     integrator: I,
     duration: S,

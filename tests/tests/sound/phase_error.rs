@@ -40,7 +40,7 @@ fn exact(ratio: f64, time: f64) -> f64 {
 /// What the cart is off by at the worst (m), and the warnings; `None` where the step is refused.
 fn oscillation<I, C>(ratio: f64, integrator: I) -> Option<(f64, Warnings)>
 where
-    I: Runs<f64, Oscillator, StandardLagrange, C>,
+    I: Runs<Problem<Oscillator, StandardLagrange, f64, C>>,
     C: Coordinates<Oscillator>,
 {
     let oscillator = Oscillator::new(2.0 * ratio).expect("acceptable");
@@ -153,7 +153,7 @@ macro_rules! warnings {
 
 fn warnings_of_exact_motions<I>(integrator: I) -> [Warnings; 5]
 where
-    I: Runs<f64, Thrown, StandardLagrange>
+    I: Runs<Problem<Thrown, StandardLagrange>>
         + RunsBoth<Wheel, StandardLagrange>
         + RunsBoth<Driven, StandardLagrange>,
 {
@@ -256,7 +256,7 @@ struct Weight {
 fn what_is_no_lag_is_warned_of() {
     fn with<I>(integrator: I)
     where
-        I: Runs<f64, Across, StandardLagrange> + Runs<f64, Weight, StandardLagrange>,
+        I: Runs<Problem<Across, StandardLagrange>> + Runs<Problem<Weight, StandardLagrange>>,
     {
         let (across, weight) = (Across::default(), Weight::default());
         for found in [

@@ -36,7 +36,7 @@ struct Pushed {
 /// What the block is off by, over its way, and whether a state has a warning.
 fn run<I>(integrator: I, end: f64) -> (f64, bool)
 where
-    I: Runs<f64, Pushed, StandardLagrange, Relative>,
+    I: Runs<Problem<Pushed, StandardLagrange, f64, Relative>>,
 {
     let pushed = Pushed::new(1.0, 1.0).expect("acceptable");
     let mut off = 0.0_f64;

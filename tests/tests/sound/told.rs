@@ -1,6 +1,5 @@
 //! Settings that do not suit a mechanism are told of, and those that do are not.
 
-use holonom::dynamics::Problem;
 use holonom::joints::PointOnPlane;
 use holonom::prelude::*;
 use holonom::{Runs, Warning};
@@ -25,8 +24,8 @@ struct Wedge {
 }
 
 /// Whether a run of a tenth of a second or more has such a warning.
-fn is_told<M: Mechanism, F: Formulation<f64>, I: Runs<f64, M, F>>(
-    simulation: &Simulation<'_, Problem<f64, M, F>, I>,
+fn is_told<M: Mechanism, F: Formulation<f64>, I: Runs<Problem<M, F>>>(
+    simulation: &Simulation<'_, Problem<M, F>, I>,
     end: f64,
     is_meant: fn(&Warning) -> bool,
 ) -> bool {

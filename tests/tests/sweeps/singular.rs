@@ -469,15 +469,15 @@ flat! {
 fn links_in_line_are_singular_in_both_descriptions() {
     fn is_singular<M: JointCoordinates>(model: &M) -> [bool; 3] {
         let bodies = model.described_state().expect("acceptable");
-        let dynamics = Dynamics::<f64, _, _>::new(model, StandardLagrange)
+        let dynamics = Dynamics::<Problem<_, _>>::new(model, StandardLagrange)
             .expect("acceptable")
             .absolute_coordinates();
         let by_bodies = dynamics.evaluate(0.0, &bodies).map(|_| ());
-        let dynamics = Dynamics::<f64, _, _>::new(model, StandardLagrange);
+        let dynamics = Dynamics::<Problem<_, _>>::new(model, StandardLagrange);
         let dynamics = dynamics.expect("acceptable").joint_coordinates();
         let joints = dynamics.initial_state().expect("consistent");
         let by_joints = dynamics.evaluate(0.0, &joints).map(|_| ());
-        let mut stepper = Stepper::<f64, _, _, _>::new(model, StandardLagrange, Rk4)
+        let mut stepper = Stepper::<Problem<_, _>, _>::new(model, StandardLagrange, Rk4)
             .expect("acceptable")
             .joint_coordinates();
         let mut state = joints;
@@ -518,7 +518,7 @@ fn equations_that_are_kept_hide_nothing_by_joints() {
 /// each.
 #[test]
 fn what_the_monitor_looks_at_is_no_part_of_a_run() {
-    fn check(integrator: impl Runs<f64, Rhombus, StandardLagrange, Relative>) {
+    fn check(integrator: impl Runs<Problem<Rhombus, StandardLagrange, f64, Relative>>) {
         let model = Rhombus::default();
         for (is_projected, step) in [(false, 0.013), (true, 0.013), (false, 2.0), (true, 2.0)] {
             let run = |is_monitored: bool| {

@@ -25,7 +25,7 @@ struct Wave {
 fn square_wave<I, C>(integrator: I) -> f64
 where
     C: Coordinates<Wave>,
-    I: Runs<f64, Wave, StandardLagrange, C>,
+    I: Runs<Problem<Wave, StandardLagrange, f64, C>>,
 {
     let (mechanism, h) = (Wave::default(), Wave::HANDLES);
     let report = unwatched::<_, _, C>(&mechanism, integrator, 5.0);
@@ -82,7 +82,7 @@ struct Pulse {
 fn pulse<I, C>((start, width): (f64, f64), integrator: I)
 where
     C: Coordinates<Pulse>,
-    I: Runs<f64, Pulse, StandardLagrange, C>,
+    I: Runs<Problem<Pulse, StandardLagrange, f64, C>>,
 {
     let mechanism = Pulse::new(start, width).expect("acceptable");
     let report = unwatched::<_, _, C>(&mechanism, integrator, 10.0);

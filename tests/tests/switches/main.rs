@@ -33,7 +33,7 @@ fn run<M, I, C>(
 where
     M: Mechanism,
     C: Coordinates<M>,
-    I: Runs<f64, M, StandardLagrange, C>,
+    I: Runs<Problem<M, StandardLagrange, f64, C>>,
 {
     let report = Simulation::new(mechanism, StandardLagrange, integrator)
         .coordinates::<C>()
@@ -48,7 +48,7 @@ fn unwatched<M, I, C>(mechanism: &M, integrator: I, end: f64) -> RunReport<f64, 
 where
     M: Mechanism,
     C: Coordinates<M>,
-    I: Runs<f64, M, StandardLagrange, C>,
+    I: Runs<Problem<M, StandardLagrange, f64, C>>,
 {
     Simulation::new(mechanism, StandardLagrange, integrator)
         .coordinates::<C>()

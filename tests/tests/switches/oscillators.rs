@@ -43,7 +43,7 @@ pub(super) fn arcs(t: f64) -> f64 {
 fn bang_bang<I, C>(integrator: I) -> f64
 where
     C: Coordinates<BangBang>,
-    I: Runs<f64, BangBang, StandardLagrange, C>,
+    I: Runs<Problem<BangBang, StandardLagrange, f64, C>>,
 {
     let (mechanism, h) = (BangBang::default(), BangBang::HANDLES);
     let (mut worst, end) = (0.0_f64, 40.0 * 2.0_f64.sqrt());
@@ -130,7 +130,7 @@ fn with_play(t: f64) -> f64 {
 fn backlash<I, C>(integrator: I) -> f64
 where
     C: Coordinates<Backlash>,
-    I: Runs<f64, Backlash, StandardLagrange, C>,
+    I: Runs<Problem<Backlash, StandardLagrange, f64, C>>,
 {
     let (mechanism, h) = (Backlash::default(), Backlash::HANDLES);
     let mut worst = 0.0_f64;

@@ -3,7 +3,6 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use holonom::dynamics::Problem;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::{Reached, Run};
@@ -49,7 +48,7 @@ fn drawn(pull: f64, damping: f64, beside: f64) -> Drawn {
 fn place<I, C>(mechanism: &Drawn, integrator: I, end: f64) -> f64
 where
     C: Coordinates<Drawn>,
-    I: Runs<f64, Drawn, StandardLagrange, C>,
+    I: Runs<Problem<Drawn, StandardLagrange, f64, C>>,
 {
     let report = run::<_, _, C>(mechanism, integrator, end, every(end), |_| ());
     Drawn::pose(&report.state, Drawn::HANDLES.bead).position.x
@@ -139,7 +138,7 @@ fn every_step_of_a_run_that_is_led_goes_on() {
 }
 
 /// Whether the bead is beyond its point.
-fn is_beyond(run: &Run<'_, Problem<f64, Sprung, StandardLagrange>, DormandPrince<f64>>) -> bool {
+fn is_beyond(run: &Run<'_, Problem<Sprung, StandardLagrange>, DormandPrince<f64>>) -> bool {
     run.sample().displacement(Sprung::HANDLES.rail) > -1.0
 }
 
@@ -179,7 +178,7 @@ fn a_point_beside_the_way_is_passed_as_well_as_one_on_it() {
 fn after_many<I, C>(mechanism: &Drawn, integrator: I, (end, right): (f64, f64)) -> (f64, bool)
 where
     C: Coordinates<Drawn>,
-    I: Runs<f64, Drawn, StandardLagrange, C>,
+    I: Runs<Problem<Drawn, StandardLagrange, f64, C>>,
 {
     let report = Simulation::new(mechanism, StandardLagrange, integrator)
         .coordinates::<C>()
@@ -294,7 +293,7 @@ fn at_length_zero_the_motion_tells_the_side() {
 /// What is off by how much of 5 J, and what was said, under a pull of 10 N on a hard ball.
 fn bounces<I>(stiffness: f64, integrator: I, dt: f64) -> (f64, String)
 where
-    I: Runs<f64, Drawn, StandardLagrange, Relative>,
+    I: Runs<Problem<Drawn, StandardLagrange, f64, Relative>>,
 {
     let mechanism = Drawn::new(10.0, 0.0, 0.0, stiffness, 0.5).expect("acceptable");
     let mut worst = 0.0_f64;

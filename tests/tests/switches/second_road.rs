@@ -87,9 +87,9 @@ where
 {
     let (switching, plain) = (Switching::default(), Plain::default());
     let (h, of_plain) = (Switching::HANDLES, Plain::HANDLES);
-    let own = Dynamics::<f64, _, _>::new(&switching, StandardLagrange).expect("sound");
+    let own = Dynamics::<Problem<_, _>>::new(&switching, StandardLagrange).expect("sound");
     let mut own = own.coordinates::<C>();
-    let other = Dynamics::<f64, _, _>::new(&plain, StandardLagrange).expect("sound");
+    let other = Dynamics::<Problem<_, _>>::new(&plain, StandardLagrange).expect("sound");
     let other = other.forces(|time, _, loads| law(time, loads));
     let mut other = other.coordinates::<P>();
     let (mut worst, mut seed, mut counts) = (0.0_f64, 5, [0; 3]);

@@ -248,7 +248,11 @@ fn timed(
 
 #[cfg(test)]
 mod tests {
-    use holonom::{StandardLagrange, dynamics::Dynamics, integrate::System as _};
+    use holonom::{
+        StandardLagrange,
+        dynamics::{Dynamics, Problem},
+        integrate::System as _,
+    };
     use holonom_models::Ur5;
 
     use super::catalogue::ur5;
@@ -267,7 +271,7 @@ mod tests {
         let mut found = vec![0.0; states[0].len()];
         let mut schur = SchurEvaluator::new(assembler.clone(), 0.0, 0.0);
         schur.rates(0.0, &states[0], &mut found).expect("a tree");
-        let dynamics = Dynamics::<f64, Ur5, _>::new(&arm, StandardLagrange);
+        let dynamics = Dynamics::<Problem<Ur5, _>>::new(&arm, StandardLagrange);
         let rates = dynamics.expect("sound").rates(0.0, &state).expect("a tree");
         let found = &found[assembler.coordinates()..];
         for (found, wanted) in found.iter().zip(rates.velocities().as_slice()) {

@@ -3,7 +3,7 @@
 use holonom::{
     AugmentedLagrangian, Baumgarte, BodyHandle, DormandPrince, Fault, Formulation, JointHandle,
     Mechanism, Penalty, Runs, Sample, StandardLagrange, Tolerance,
-    dynamics::Dynamics,
+    dynamics::{Dynamics, Problem},
     integrate::TimeSpan,
     mechanism::{Absolute, HasAngle},
 };
@@ -185,7 +185,7 @@ impl<M: Mechanism, J: HasAngle> Subject<'_, M, J> {
         let (span, integrator) = (settings.span(), settings.integrator());
         let recording = self.record(method, formulation, integrator, span)?;
         let dynamics =
-            Dynamics::<f64, M, F>::new(self.mechanism, formulation).map_err(|fault| {
+            Dynamics::<Problem<M, F>>::new(self.mechanism, formulation).map_err(|fault| {
                 StudyError::Run {
                     name: method.name().into(),
                     reason: fault.to_string(),
@@ -204,7 +204,7 @@ impl<M: Mechanism, J: HasAngle> Subject<'_, M, J> {
     ///
     /// # Errors
     /// [`StudyError::Run`] where the run stops.
-    pub fn record<F: Formulation<f64>, I: Runs<f64, M, F, Absolute<Chapter15>>>(
+    pub fn record<F: Formulation<f64>, I: Runs<Problem<M, F, f64, Absolute<Chapter15>>>>(
         &self,
         method: Method,
         formulation: F,

@@ -9,9 +9,8 @@ use std::time::Instant;
 use holonom::{
     AugmentedLagrangian, Baumgarte, Fault, Formulation, JointCoordinates, Mechanism, Penalty, Real,
     Rk4, Scalar as _, StandardLagrange, StateParts as _,
-    dynamics::Dynamics,
+    dynamics::{Dynamics, Problem},
     integrate::{OneStep as _, System},
-    measure::NoForces,
     mechanism::{Absolute, Coordinates as Kernels, Evaluation, Kernel, Operations, Relative},
     state::{Array as _, Vector as _},
 };
@@ -65,7 +64,7 @@ pub type StateOf<S, Y> = <<Y as Subject<S>>::System as System<S>>::State;
 
 /// A mechanism in some coordinates.
 struct Solved<S: Real, M: Mechanism, F: Formulation<S>, C: Kernels<M>> {
-    dynamics: Dynamics<S, M, F, NoForces, C>,
+    dynamics: Dynamics<Problem<M, F, S, C>>,
     multipliers: C::Multipliers<S>,
 }
 
@@ -79,7 +78,7 @@ impl<S: Real, M: Mechanism + Default, F: Formulation<S>, C: Kernels<M>> Solved<S
 }
 
 impl<S: Real, M: Mechanism, F: Formulation<S>, C: Kernels<M>> Subject<S> for Solved<S, M, F, C> {
-    type System = Dynamics<S, M, F, NoForces, C>;
+    type System = Dynamics<Problem<M, F, S, C>>;
     type Evaluation = Evaluation<S, M, C>;
 
     const IS_ONE_KERNEL: bool = !F::ITERATED;
@@ -191,7 +190,7 @@ impl Scene {
         step: f64,
     ) -> Result<Self, Fault> {
         let mut dynamics =
-            Dynamics::<f64, M, _>::new(&M::default(), StandardLagrange)?.absolute_coordinates();
+            Dynamics::<Problem<M, _>>::new(&M::default(), StandardLagrange)?.absolute_coordinates();
         let start = M::initial_state(dynamics.constants());
         let states = states(&mut dynamics, start, step)?;
         let rates = states.iter().map(|state| dynamics.rates(0.0, state));
@@ -305,8 +304,8 @@ fn counted_by_bodies<M: Mechanism + Default>(
         formulation: F,
         states: &[Vec<f64>],
     ) -> Result<Operations, Fault> {
-        let dynamics =
-            Dynamics::<Counted, M, _>::new(&M::default(), formulation)?.absolute_coordinates();
+        let dynamics = Dynamics::<Problem<M, _, Counted>>::new(&M::default(), formulation)?
+            .absolute_coordinates();
         let state = counted_state::<M>(dynamics.constants(), states);
         let (operations, outcome) =
             counted(|| dynamics.evaluate(Counted::zero(), &state).map(|_| ()));
@@ -325,7 +324,8 @@ fn iterated_by_joints<M: JointCoordinates + Default>(
     states: &[Vec<f64>],
 ) -> Result<Operations, Fault> {
     let formulation = AugmentedLagrangian::<Counted>::default();
-    let dynamics = Dynamics::<Counted, M, _>::new(&M::default(), formulation)?.joint_coordinates();
+    let dynamics =
+        Dynamics::<Problem<M, _, Counted>>::new(&M::default(), formulation)?.joint_coordinates();
     let state = counted_state::<M>(dynamics.constants(), states);
     let state = dynamics.state_of(&state)?;
     let (operations, outcome) = counted(|| dynamics.evaluate(Counted::zero(), &state).map(|_| ()));

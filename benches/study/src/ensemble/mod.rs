@@ -17,7 +17,6 @@ use std::str::FromStr;
 use holonom::dynamics::Dynamics;
 use holonom::integrate::OneStep;
 use holonom::lanes::{Ensemble, LaneEquations, Lanes};
-use holonom::measure::NoForces;
 use holonom::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng as _;
@@ -143,8 +142,8 @@ pub fn compute<M, F, K, const P: usize, const R: usize>(
 where
     M: Mechanism,
     F: Formulation<f64> + Sync,
-    K: OneStep<f64, Dynamics<f64, M, F, NoForces, M::Coordinates>>
-        + OneStep<Lanes<f64, LANES>, LaneEquations<f64, M, M::Coordinates, F::Terms, LANES>>
+    K: OneStep<f64, Dynamics<Problem<M, F>>>
+        + OneStep<Lanes<f64, LANES>, LaneEquations<Problem<M, F>, LANES>>
         + Sync,
 {
     let numbers: Vec<u64> = rows.shard.rows(rows.all).collect();
@@ -174,8 +173,8 @@ fn compute_these<M, F, K, const P: usize, const R: usize>(
 where
     M: Mechanism,
     F: Formulation<f64> + Sync,
-    K: OneStep<f64, Dynamics<f64, M, F, NoForces, M::Coordinates>>
-        + OneStep<Lanes<f64, LANES>, LaneEquations<f64, M, M::Coordinates, F::Terms, LANES>>
+    K: OneStep<f64, Dynamics<Problem<M, F>>>
+        + OneStep<Lanes<f64, LANES>, LaneEquations<Problem<M, F>, LANES>>
         + Sync,
 {
     let batches = numbers.par_chunks(LANES).map(|numbers| {
@@ -213,8 +212,8 @@ fn batch<M, F, K, const P: usize, const R: usize>(
 where
     M: Mechanism,
     F: Formulation<f64>,
-    K: OneStep<f64, Dynamics<f64, M, F, NoForces, M::Coordinates>>
-        + OneStep<Lanes<f64, LANES>, LaneEquations<f64, M, M::Coordinates, F::Terms, LANES>>,
+    K: OneStep<f64, Dynamics<Problem<M, F>>>
+        + OneStep<Lanes<f64, LANES>, LaneEquations<Problem<M, F>, LANES>>,
 {
     let first = numbers.first().copied().unwrap_or(0);
     let (mut mechanisms, mut starts, mut columns) = (Vec::new(), Vec::new(), Vec::new());
@@ -230,11 +229,11 @@ where
     ) else {
         return Err(refused(first)("too few lanes"));
     };
-    let ensemble = Ensemble::<f64, _, _, _, _, LANES>::new(&mechanisms, formulation, scheme);
+    let ensemble = Ensemble::<Problem<_, _>, _, LANES>::new(&mechanisms, formulation, scheme);
     let mut ensemble = ensemble.map_err(refused(first))?;
     ensemble.start(&starts);
     let mut readings = [[f64::NAN; R]; LANES];
-    let mut take = |ensemble: &Ensemble<_, _, _, _, _, LANES>| {
+    let mut take = |ensemble: &Ensemble<Problem<_, _>, _, LANES>| {
         ensemble.each(|lane, view| read(&mut readings[lane], &view));
     };
     take(&ensemble);

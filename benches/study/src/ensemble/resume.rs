@@ -8,7 +8,6 @@ use csv::StringRecord;
 use holonom::dynamics::Dynamics;
 use holonom::integrate::OneStep;
 use holonom::lanes::{LaneEquations, Lanes};
-use holonom::measure::NoForces;
 use holonom::prelude::*;
 use rand_chacha::ChaCha8Rng;
 
@@ -42,8 +41,8 @@ pub fn resume<M, F, K, const P: usize, const R: usize>(
 where
     M: Mechanism,
     F: Formulation<f64> + Sync,
-    K: OneStep<f64, Dynamics<f64, M, F, NoForces, M::Coordinates>>
-        + OneStep<Lanes<f64, LANES>, LaneEquations<f64, M, M::Coordinates, F::Terms, LANES>>
+    K: OneStep<f64, Dynamics<Problem<M, F>>>
+        + OneStep<Lanes<f64, LANES>, LaneEquations<Problem<M, F>, LANES>>
         + Sync,
 {
     let conditions = format!(

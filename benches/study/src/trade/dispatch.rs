@@ -8,7 +8,6 @@ use holonom::{
     dynamics::Dynamics,
     every,
     integrate::TimeSpan,
-    measure::NoForces,
     mechanism::{Absolute, Kernel, Relative},
     run::{TreeRecovery, VelocityProjection},
 };
@@ -195,7 +194,7 @@ fn simulation<'a, S: Real, P: Problem, F: Studied<S> + 'static>(
     formulation: F,
     (integration, start): (IntegratorSetting, <P::Mechanism as Mechanism>::State<S>),
     stabilisation: &'a Stabilisation<'_, S, P::Mechanism>,
-) -> Simulation<'a, dynamics::Problem<S, P::Mechanism, F, NoForces, Absolute>, IntegratorSetting> {
+) -> Simulation<'a, dynamics::Problem<P::Mechanism, F, S, Absolute>, IntegratorSetting> {
     let simulation =
         Simulation::new(problem.mechanism(), formulation, integration).absolute_coordinates();
     let simulation = simulation.initial_state(start);
@@ -229,8 +228,7 @@ impl<'a, P: Problem + 'a> Task<'a, P> for Observe<'_, P> {
     }
 }
 
-type Run<'a, S, M, F, C> =
-    Simulation<'a, dynamics::Problem<S, M, F, NoForces, C>, IntegratorSetting>;
+type Run<'a, S, M, F, C> = Simulation<'a, dynamics::Problem<M, F, S, C>, IntegratorSetting>;
 
 fn observed<S: Real, P: Problem, F: Studied<S>, C>(
     problem: &P,
@@ -330,7 +328,8 @@ impl<'a, P: Problem> Task<'a, P> for Time<'a, '_, P> {
                 bare_run(problem, run.coordinates::<C>())
             }));
         }
-        let dynamics = Dynamics::<S, _, _>::new(problem.mechanism(), formulation);
+        let dynamics =
+            Dynamics::<dynamics::Problem<_, _, S>>::new(problem.mechanism(), formulation);
         let dynamics = dynamics.map_err(|fault| stopped(problem, &fault))?;
         let dynamics = dynamics.coordinates::<C>();
         let start = dynamics

@@ -7,7 +7,7 @@
 use holonom::{
     AugmentedLagrangian, Baumgarte, Fault, Formulation, JointCoordinates, Mechanism, Penalty, Real,
     StandardLagrange,
-    dynamics::Dynamics,
+    dynamics::{Dynamics, Problem},
     integrate::{AlphaEnd, AlphaStep, RigidConstraints as _, SecondOrder},
     measure::AppliedForces,
     mechanism::{Absolute, Coordinates, Orientation, Relative},
@@ -29,14 +29,14 @@ pub trait Movable<S: Real>: SecondOrder<S> {
 pub trait Studied<S: Real>: Formulation<S> {
     /// The step of a mechanism in absolute coordinates.
     fn on_constraints<M: Mechanism, A: AppliedForces<S, M>, P: Orientation>(
-        dynamics: &mut Dynamics<S, M, Self, A, Absolute<P>>,
+        dynamics: &mut Dynamics<Problem<M, Self, S, Absolute<P>, A>>,
         asked: AlphaStep<'_, S, M::State<S>>,
     ) -> OnConstraints<M::State<S>>;
 }
 
 impl<S: Real> Studied<S> for StandardLagrange {
     fn on_constraints<M: Mechanism, A: AppliedForces<S, M>, P: Orientation>(
-        dynamics: &mut Dynamics<S, M, Self, A, Absolute<P>>,
+        dynamics: &mut Dynamics<Problem<M, Self, S, Absolute<P>, A>>,
         asked: AlphaStep<'_, S, M::State<S>>,
     ) -> OnConstraints<M::State<S>> {
         Some(dynamics.step_on_constraints(asked))
@@ -48,7 +48,7 @@ macro_rules! yielding {
     ($($formulation:ident),*) => {$(
         impl<S: Real> Studied<S> for $formulation<S> {
             fn on_constraints<M: Mechanism, A: AppliedForces<S, M>, P: Orientation>(
-                _dynamics: &mut Dynamics<S, M, Self, A, Absolute<P>>,
+                _dynamics: &mut Dynamics<Problem<M, Self, S, Absolute<P>, A>>,
                 _asked: AlphaStep<'_, S, M::State<S>>,
             ) -> OnConstraints<M::State<S>> {
                 None
@@ -63,14 +63,14 @@ yielding!(Baumgarte, Penalty, AugmentedLagrangian);
 pub trait Described<M: Mechanism>: Coordinates<M> {
     /// The step of a mechanism by some formulation.
     fn on_constraints<S: Real, F: Studied<S>, A: AppliedForces<S, M>>(
-        dynamics: &mut Dynamics<S, M, F, A, Self>,
+        dynamics: &mut Dynamics<Problem<M, F, S, Self, A>>,
         asked: AlphaStep<'_, S, Self::State<S>>,
     ) -> OnConstraints<Self::State<S>>;
 }
 
 impl<M: Mechanism, P: Orientation> Described<M> for Absolute<P> {
     fn on_constraints<S: Real, F: Studied<S>, A: AppliedForces<S, M>>(
-        dynamics: &mut Dynamics<S, M, F, A, Self>,
+        dynamics: &mut Dynamics<Problem<M, F, S, Self, A>>,
         asked: AlphaStep<'_, S, M::State<S>>,
     ) -> OnConstraints<M::State<S>> {
         F::on_constraints(dynamics, asked)
@@ -79,14 +79,14 @@ impl<M: Mechanism, P: Orientation> Described<M> for Absolute<P> {
 
 impl<M: JointCoordinates> Described<M> for Relative {
     fn on_constraints<S: Real, F: Studied<S>, A: AppliedForces<S, M>>(
-        _dynamics: &mut Dynamics<S, M, F, A, Self>,
+        _dynamics: &mut Dynamics<Problem<M, F, S, Self, A>>,
         _asked: AlphaStep<'_, S, M::JointState<S>>,
     ) -> OnConstraints<M::JointState<S>> {
         None
     }
 }
 
-impl<S, M, F, A, C> Movable<S> for Dynamics<S, M, F, A, C>
+impl<S, M, F, A, C> Movable<S> for Dynamics<Problem<M, F, S, C, A>>
 where
     S: Real,
     M: Mechanism,

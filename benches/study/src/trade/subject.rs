@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use holonom::{
     AugmentedLagrangian, Fault, JointCoordinates, Mechanism, Projection, StateParts,
-    dynamics::Dynamics,
+    dynamics::{self, Dynamics},
     integrate::TimeSpan,
     mechanism::{Absolute, BodyInfo, BodyKind, Relative},
     state::Array as _,
@@ -289,7 +289,7 @@ fn start_near<P: Problem>(problem: &P, size: f64, number: u64) -> Result<Start, 
     let spin = spins.fold(1.0 / scale, f64::max);
     let formulation = AugmentedLagrangian::of(mechanism);
     let dynamics = formulation
-        .and_then(|formulation| Dynamics::<f64, _, _>::new(mechanism, formulation))
+        .and_then(|formulation| Dynamics::<dynamics::Problem<_, _>>::new(mechanism, formulation))
         .map(Dynamics::absolute_coordinates);
     let evaluation = dynamics.and_then(|dynamics| dynamics.evaluate(time, &state));
     let gained = evaluation.map_or(0.0, |(evaluation, _)| {

@@ -3,14 +3,11 @@
 use core::convert::Infallible;
 use core::ops::{ControlFlow, RangeInclusive};
 
-use crate::dynamics::{Posed, Problem};
+use crate::dynamics::{Posed, Solvable};
 use crate::error::Fault;
-use crate::formulation::Formulation;
 use crate::integrate::Method;
-use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
-use crate::mechanism::kernels::{InputsOf, Mechanism};
+use crate::math::scalar::Scalar as _;
+use crate::mechanism::kernels::InputsOf;
 #[cfg(feature = "std")]
 use crate::run::checkpoint::{Checkpoint, keeper::Keeping};
 use crate::run::events::context::Event;
@@ -207,14 +204,7 @@ where
     }
 }
 
-impl<S, M, F, I, A, C> Simulation<'_, Problem<S, M, F, A, C>, I>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    I: Method<S>,
-    C: Coordinates<M>,
-{
+impl<P: Solvable, I: Method<P::Number>> Simulation<'_, P, I> {
     /// Runs until a reading first passes zero, or to the end:
     /// [`RunReport::stopped`](crate::RunReport::stopped) says which,
     /// [`RunReport::time`](crate::RunReport::time) when. For reports on the way use
@@ -244,23 +234,22 @@ where
     /// Those of [`Simulation::run`] and [`Simulation::on`].
     pub fn run_until<G>(
         &self,
-        interval: RangeInclusive<S>,
+        interval: RangeInclusive<P::Number>,
         crossing: Crossing,
         reading: G,
-    ) -> RunResult<S, M>
+    ) -> RunResult<P::Number, P::Mechanism>
     where
-        G: Fn(&Sample<'_, S, M>) -> S,
-        F: Clone,
-        I: Runs<S, M, F, C, A>,
-        A: AppliedForces<S, M> + Clone,
+        G: Fn(&Sample<'_, P::Number, P::Mechanism>) -> P::Number,
+        I: Runs<P>,
+        P::Forces: Clone,
     {
         let duration = *interval.end() - *interval.start();
-        let reporting = if duration > S::zero() {
+        let reporting = if duration > P::Number::zero() {
             Reporting::Every(duration)
         } else {
             Reporting::EveryStep
         };
-        let stop = |_: &mut Event<'_, S, M>| ControlFlow::Break(());
+        let stop = |_: &mut Event<'_, P::Number, P::Mechanism>| ControlFlow::Break(());
         let mut run = self.clone().on("the end", crossing, reading, stop);
         run.run(interval, reporting, |_| ())
     }

@@ -1,12 +1,9 @@
 //! The first event within a step of a [`Stepper`].
 
+use crate::dynamics::{Solvable, State};
 use crate::error::Fault;
-use crate::formulation::Formulation;
-use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
+use crate::math::scalar::{Real as _, Scalar as _};
 use crate::measure::view::View;
-use crate::mechanism::coordinates::Coordinates;
-use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::turns;
 use crate::run::events::sizes::{round_off, shaken};
 use crate::run::stepper::{Stepper, Steps};
@@ -19,15 +16,7 @@ const FIRST_LOOK: f64 = 1.0 / 1_048_576.0;
 /// How often a bracket is divided at the most: some eight times would do.
 const MOST: usize = 48;
 
-impl<S, M, F, K, A, C> Stepper<S, M, F, K, A, C>
-where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    K: Steps<S, M, F, C, A>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-{
+impl<P: Solvable, K: Steps<P>> Stepper<P, K> {
     /// Moves the state by one step of `dt` (s), or to where a reading first passes zero within it.
     /// The time (s) of that, which [`Stepper::time`] then is; `None` after a whole step.
     ///
@@ -72,27 +61,27 @@ where
     /// then as before.
     pub fn step_until(
         &mut self,
-        state: &mut C::State<S>,
-        dt: S,
+        state: &mut State<P>,
+        dt: P::Number,
         crossing: Crossing,
-        reading: impl Fn(&View<'_, S, M>) -> S,
-    ) -> Result<Option<S>, Fault> {
+        reading: impl Fn(&View<'_, P::Number, P::Mechanism>) -> P::Number,
+    ) -> Result<Option<P::Number>, Fault> {
         let time = self.time();
         let step = self.ahead(state, dt)?;
         let watch = Watch::new("the end of a step", crossing);
-        let read = |part: S| {
+        let read = |part: P::Number| {
             let bodies = self.bodies_within(&step, part)?;
             let time = part.fused(dt, time);
             watch.checked(time, reading(&self.dynamics.view(time, &bodies)))
         };
         let mut sign = watch;
-        let (zero, one) = (S::zero(), S::one());
-        let first = S::constant(FIRST_LOOK);
+        let (zero, one) = (P::Number::zero(), P::Number::one());
+        let first = P::Number::constant(FIRST_LOOK);
         let here = read(zero)?;
         let start = self.bodies_within(&step, zero)?;
         let beside = [1.0, -1.0].map(|way| {
             let constants = self.dynamics.constants();
-            let (time, bodies) = shaken::<S, M>(constants, time, &start, way);
+            let (time, bodies) = shaken::<P::Number, P::Mechanism>(constants, time, &start, way);
             reading(&self.dynamics.view(time, &bodies))
         });
         sign.begin(Reading {
@@ -105,7 +94,7 @@ where
         for part in looks(zero, one, true) {
             let now = read(part)?;
             if sign.is_met(now) {
-                let upwards = |part: S| Ok::<S, Fault>(sign.upwards(read(part)?));
+                let upwards = |part: P::Number| Ok::<_, Fault>(sign.upwards(read(part)?));
                 let root = locate((before, part), sign.upwards(now), upwards, MOST)?;
                 found = Some(root.plain());
                 break;

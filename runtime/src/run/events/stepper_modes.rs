@@ -1,13 +1,10 @@
 //! Steps with interactions, for a loop that somebody else owns.
 
-use crate::dynamics::Dynamics;
 use crate::dynamics::evaluate::Evaluate;
+use crate::dynamics::{Bodies, Dynamics, Solvable, State};
 use crate::error::Fault;
-use crate::formulation::Formulation;
 use crate::integrate::{Scheme, StepWithin, System as _};
 use crate::math::scalar::Real;
-use crate::measure::load::AppliedForces;
-use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::turns;
@@ -24,14 +21,10 @@ use crate::stepping::root::first_root;
 const CHANGES: usize = 8;
 const OF_EACH: usize = 4;
 
-impl<S, M, F, K, A, C> Stepper<S, M, F, K, A, C>
+impl<P, S: Real, M: Mechanism, K> Stepper<P, K>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
+    P: Solvable<Number = S, Mechanism = M>,
     K: Scheme<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
 {
     /// The mode of an interaction; [`InteractionMode::Released`] or [`InteractionMode::Free`]
     /// before the first step.
@@ -48,11 +41,7 @@ where
     ///
     /// # Errors
     /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`], the fault of the evaluation.
-    pub fn effort(
-        &self,
-        interaction: InteractionHandle<M>,
-        state: &C::State<S>,
-    ) -> Result<S, Fault> {
+    pub fn effort(&self, interaction: InteractionHandle<M>, state: &State<P>) -> Result<S, Fault> {
         let (place, _) = named(self.dynamics.tracked(), interaction)?;
         let mut effort = S::zero();
         self.dynamics.efforts(self.time(), state, &mut |all| {
@@ -98,18 +87,14 @@ where
     }
 }
 
-impl<S, M, F, K, A, C> Stepper<S, M, F, K, A, C>
+impl<P, S: Real, M: Mechanism, K> Stepper<P, K>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    K: Steps<S, M, F, C, A>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
+    P: Solvable<Number = S, Mechanism = M>,
+    K: Steps<P>,
 {
     /// A step with the modes that begin and end within it.
     #[inline(never)]
-    pub(crate) fn step_with_modes(&mut self, state: &mut C::State<S>, dt: S) -> Result<(), Fault> {
+    pub(crate) fn step_with_modes(&mut self, state: &mut State<P>, dt: S) -> Result<(), Fault> {
         self.checked(state, dt)?;
         self.begin_modes()?;
         let before = self.dynamics.applied_forces().list().clone();
@@ -122,7 +107,7 @@ where
     }
 
     /// The state after a step, by as many as there are modes that end.
-    fn moved(&mut self, state: &C::State<S>, dt: S) -> Result<C::State<S>, Fault> {
+    fn moved(&mut self, state: &State<P>, dt: S) -> Result<State<P>, Fault> {
         let start = self.time();
         let end = start + dt;
         let (mut time, mut left) = (start, dt);
@@ -178,28 +163,24 @@ where
 }
 
 /// A step that is looked into.
-struct Within<'s, S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>, G> {
-    dynamics: &'s mut Dynamics<S, M, F, A, C>,
+struct Within<'s, P: Solvable, G> {
+    dynamics: &'s mut Dynamics<P>,
     state_at: G,
     /// The last look (s), and the bodies there.
-    since: S,
-    near: M::State<S>,
+    since: P::Number,
+    near: Bodies<P>,
 }
 
-impl<S, M, F, A, C, G> Interval<S, M> for Within<'_, S, M, F, A, C, G>
+impl<P, G> Interval<P::Number, P::Mechanism> for Within<'_, P, G>
 where
-    S: Real,
-    M: Mechanism,
-    F: Formulation<S>,
-    A: AppliedForces<S, M>,
-    C: Coordinates<M>,
-    G: Fn(S) -> C::State<S>,
+    P: Solvable,
+    G: Fn(P::Number) -> State<P>,
 {
-    fn equations(&mut self) -> &mut dyn Evaluate<S, M> {
+    fn equations(&mut self) -> &mut dyn Evaluate<P::Number, P::Mechanism> {
         self.dynamics
     }
 
-    fn bodies_at(&mut self, time: S) -> Result<M::State<S>, Fault> {
+    fn bodies_at(&mut self, time: P::Number) -> Result<Bodies<P>, Fault> {
         let (start, near) = (self.since, &self.near);
         let state = (self.state_at)(time);
         let (mut bodies, is_known) = self.dynamics.bodies_after(&state, (time - start, near));
@@ -207,10 +188,10 @@ where
             let at = |_: &mut &_, time| Ok((self.state_at)(time));
             bodies = bodies_by_halves(&*self.dynamics, (start, near), time, at)?;
         }
-        Ok(with_unit_orientations::<S, M>(&bodies))
+        Ok(with_unit_orientations::<P::Number, P::Mechanism>(&bodies))
     }
 
-    fn look_from(&mut self, time: S, bodies: M::State<S>) {
+    fn look_from(&mut self, time: P::Number, bodies: Bodies<P>) {
         (self.since, self.near) = (time, bodies);
     }
 }

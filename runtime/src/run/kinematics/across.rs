@@ -6,10 +6,12 @@
 //! rates. What it takes has no limit there, so that the sample refuses it by name.
 
 use super::motion::{Found, Motion};
+use crate::dynamics::Problem;
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
+use crate::mechanism::coordinates::Absolute;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::state::vector::{Array, StateParts};
@@ -24,11 +26,11 @@ const DOUBLINGS: u8 = 5;
 /// Poses that are looked at around a pivot that is least: each halves the rest of the way.
 const LOOKS: u8 = 8;
 
-impl<S, M, F, A> Motion<S, M, F, A>
+impl<M, F, S, A> Motion<Problem<M, F, S, Absolute, A>>
 where
-    S: Real,
     M: Mechanism,
     F: Formulation<S>,
+    S: Real,
     A: AppliedForces<S, M>,
 {
     /// The pose at a time at which the equations do not determine one, and how far (rad) it led;

@@ -6,7 +6,7 @@ use crate::constraints::newton::{FREE, free_share};
 use crate::constraints::projection::Projection;
 use crate::constraints::retract::advanced;
 use crate::constraints::row_units::characteristic_length;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, Problem, Solvable};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
@@ -58,29 +58,29 @@ impl<S: Real, M: Mechanism> Clone for Found<S, M> {
 impl<S: Real, M: Mechanism> Copy for Found<S, M> {}
 
 /// The motion under way.
-pub(super) struct Motion<S: Real, M: Mechanism, F: Formulation<S>, A> {
-    pub(super) dynamics: Dynamics<S, M, F, A, Absolute>,
-    projection: Projection<S>,
+pub(super) struct Motion<P: Solvable> {
+    pub(super) dynamics: Dynamics<P>,
+    projection: Projection<P::Number>,
     pub(super) steps: usize,
     pub(super) shortened: usize,
     pub(super) iterations: usize,
-    pub(super) passage: Passage<S, M>,
+    pub(super) passage: Passage<P::Number, P::Mechanism>,
     /// The length of the mechanism (m).
-    length: S,
+    length: P::Number,
     /// How long a step may be (s) as far as those before tell, and the longest so far.
-    step: Option<S>,
-    longest: S,
+    step: Option<P::Number>,
+    longest: P::Number,
 }
 
-impl<S, M, F, A> Motion<S, M, F, A>
+impl<M, F, S, A> Motion<Problem<M, F, S, Absolute, A>>
 where
-    S: Real,
     M: Mechanism,
     F: Formulation<S>,
+    S: Real,
     A: AppliedForces<S, M>,
 {
     pub(super) fn new(
-        dynamics: Dynamics<S, M, F, A, Absolute>,
+        dynamics: Dynamics<Problem<M, F, S, Absolute, A>>,
         projection: Projection<S>,
         start: S,
         state: &M::State<S>,

@@ -35,7 +35,7 @@ type Inputs = InputsOf<Balancer, f32>;
 fn run(timer: &mut SYST) -> Result<(), Fault> {
     let pivot = Balancer::HANDLES.pivot;
     let balancer = Balancer::default();
-    let mut stepper = Stepper::<f32, _, _, _>::new(&balancer, StandardLagrange, Rk4)?;
+    let mut stepper = Stepper::<Problem<_, _, f32>, _>::new(&balancer, StandardLagrange, Rk4)?;
     // Aside by 0.05 rad, at rest.
     let mut start = balancer.described_state()?;
     balancer.set_angle(&mut start, pivot, 0.05)?;

@@ -24,7 +24,7 @@ use panic_never as _;
 fn by_bodies<F, K>(formulation: F, scheme: K) -> Result<(), Fault>
 where
     F: Formulation<Number>,
-    K: Steps<Number, Swing, F, Absolute>,
+    K: Steps<Problem<Swing, F, Number, Absolute>>,
 {
     let plant = Swing::default();
     let mut stepper = Stepper::new(&plant, formulation, scheme)?;
@@ -49,11 +49,11 @@ where
 fn by_joints<F, K>(formulation: F, scheme: K) -> Result<(), Fault>
 where
     F: Formulation<Number>,
-    K: Steps<Number, Swing, F, Relative>,
+    K: Steps<Problem<Swing, F, Number, Relative>>,
 {
     let plant = Swing::default();
     let mut stepper =
-        Stepper::<Number, Swing, _, _>::new(&plant, formulation, scheme)?.joint_coordinates();
+        Stepper::<Problem<Swing, _, Number>, _>::new(&plant, formulation, scheme)?.joint_coordinates();
     let mut state = stepper.initial_state()?;
     for _ in 0..10 {
         stepper.update(&plant)?;
@@ -91,12 +91,12 @@ where
 
 /// Methods that take steps of the four-bar in both coordinates.
 trait Moves<F: Formulation<Number>>:
-    Steps<Number, Swing, F, Absolute> + Steps<Number, Swing, F, Relative>
+    Steps<Problem<Swing, F, Number, Absolute>> + Steps<Problem<Swing, F, Number, Relative>>
 {
 }
 
 impl<F: Formulation<Number>, K> Moves<F> for K where
-    K: Steps<Number, Swing, F, Absolute> + Steps<Number, Swing, F, Relative>
+    K: Steps<Problem<Swing, F, Number, Absolute>> + Steps<Problem<Swing, F, Number, Relative>>
 {
 }
 

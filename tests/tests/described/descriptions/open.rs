@@ -19,7 +19,7 @@ fn refused<M: JointCoordinates>(
 #[test]
 fn open_joints_are_refused() {
     let crane = Crane::driven().expect("acceptable");
-    let dynamics = Dynamics::<f64, _, _>::new(&crane, StandardLagrange)
+    let dynamics = Dynamics::<Problem<_, _>>::new(&crane, StandardLagrange)
         .expect("acceptable")
         .joint_coordinates();
     let handles = Crane::HANDLES;

@@ -35,7 +35,7 @@ struct Forced {
 fn accelerations_are_the_same() {
     let arm = Vector3::new(0.5, 0.1, -0.2);
     let handle = Bare::HANDLES.j;
-    let bare = Dynamics::<f64, Bare, _>::new(&Bare::default(), StandardLagrange)
+    let bare = Dynamics::<Problem<Bare, _>>::new(&Bare::default(), StandardLagrange)
         .expect("acceptable")
         .forces(|time, state, loads| {
             loads.force_at(handle, arm.into(), [3.0, -1.0, 2.0]);
@@ -50,8 +50,8 @@ fn accelerations_are_the_same() {
             let force = 5.0 * line.norm() - 2.0 * rate + time;
             loads.force_at(handle, arm.into(), (force * line.normalize()).into());
         });
-    let forced =
-        Dynamics::<f64, Forced, _>::new(&Forced::default(), StandardLagrange).expect("acceptable");
+    let forced = Dynamics::<Problem<Forced, _>>::new(&Forced::default(), StandardLagrange)
+        .expect("acceptable");
     let mut x =
         holonom::MechanismExt::described_state::<f64>(&Forced::default()).expect("described");
     for (step, time) in [0.0, 0.4, 1.3].into_iter().enumerate() {

@@ -2,9 +2,8 @@
 
 use holonom::{
     Heun, ImplicitMidpoint,
-    dynamics::Dynamics,
+    dynamics::{Dynamics, Problem},
     integrate::OneStep,
-    measure::NoForces,
     mechanism::{Absolute, Relative},
     state::Array,
     state::MovingState,
@@ -41,8 +40,8 @@ fn return_errors<M: JointCoordinates, K>(
     scheme: K,
 ) -> [f64; 2]
 where
-    K: OneStep<f64, Dynamics<f64, M, StandardLagrange, NoForces, Absolute>>
-        + OneStep<f64, Dynamics<f64, M, StandardLagrange, NoForces, Relative>>,
+    K: OneStep<f64, Dynamics<Problem<M, StandardLagrange, f64, Absolute>>>
+        + OneStep<f64, Dynamics<Problem<M, StandardLagrange, f64, Relative>>>,
 {
     let negative = |velocities: &mut [f64]| {
         for velocity in velocities {
