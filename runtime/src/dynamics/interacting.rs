@@ -1,7 +1,7 @@
 //! Efforts, impulses and modes of interactions.
 
 use super::Dynamics;
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::formulation::{Formulation, add};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
@@ -28,7 +28,7 @@ where
     /// Takes the limits of the description by the parameters that it has now.
     ///
     /// # Errors
-    /// [`Fault::InteractionSetting`].
+    /// [`StartFault::InteractionSetting`](crate::error::StartFault::InteractionSetting).
     pub(crate) fn renew_limits(&mut self) -> Result<(), Fault> {
         if A::INTERACTS {
             let parameters = *self.parameters();
@@ -49,7 +49,7 @@ where
         let evaluator = self.evaluator();
         match evaluator.parts(time, state, &mut rates, &mut multipliers, true) {
             Ok(_) => Ok(()),
-            Err(Fault::StateNotFinite) => Err(evaluator.fault(time, state)),
+            Err(Fault::Step(StepFault::StateNotFinite)) => Err(evaluator.fault(time, state)),
             Err(fault) => Err(fault),
         }
     }

@@ -4,7 +4,7 @@
 use super::evaluate::Parts;
 use super::{Dynamics, Evaluator, VANISHED, vanishes};
 use crate::constraints::rows::Rows;
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::formulation::{Formulation, StraightOn};
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
@@ -192,7 +192,7 @@ where
     ) -> Result<(), Fault> {
         let pivot = match &parts {
             Ok(parts) => parts.pivot.relative,
-            Err(Fault::StateNotFinite) => {
+            Err(Fault::Step(StepFault::StateNotFinite)) => {
                 let pivot = self.evaluator().solved_again(time, state, rates);
                 pivot.relative
             }

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::error::kinds::Fault;
+use crate::error::fault::Fault;
 use crate::error::readable::Given;
 
 /// A run or a step that could not go on: when, why, and the last good state.

@@ -163,8 +163,8 @@ pub trait IndependentExt: JointRates {
     /// # Errors
     /// - [`AnalysisFault::ChosenCount`]: more or fewer than there are degrees of freedom.
     /// - [`AnalysisFault::SeveralMotions`]: a joint that has more than one.
-    /// - [`Fault::CarriesNothing`]: a joint that closes a loop or drives.
-    ///   [`AnalysisFault::Carried`]: a body that a joint carries.
+    /// - [`AssemblyFault::CarriesNothing`](crate::error::AssemblyFault::CarriesNothing): a joint
+    ///   that closes a loop or drives. [`AnalysisFault::Carried`]: a body that a joint carries.
     /// - [`AnalysisFault::ChosenTwice`]; a parameter that is not acceptable.
     ///
     /// [`AnalysisFault::ChosenCount`]: crate::error::AnalysisFault::ChosenCount
@@ -224,7 +224,8 @@ impl<M: JointRates, const N: usize, S: Scalar> IndependentCoordinates<M, N, S> {
     /// Whether all joints are between the limits of the description.
     ///
     /// # Errors
-    /// [`Fault::BeyondLimit`] with the first one that is not, where it is, and its limit.
+    /// [`AssemblyFault::BeyondLimit`](crate::error::AssemblyFault::BeyondLimit) with the first one
+    /// that is not, where it is, and its limit.
     pub fn check_limits(&self, state: &M::JointState<S>) -> Result<(), Fault>
     where
         S: Real,

@@ -7,7 +7,7 @@ use super::equations::LaneEquations;
 use super::exchange::{put_state, state_of};
 use super::number::Lanes;
 use crate::dynamics::Dynamics;
-use crate::error::{Fault, SimulationError};
+use crate::error::{Fault, SimulationError, StepFault};
 use crate::formulation::Formulation;
 use crate::integrate::Scheme;
 use crate::math::clock::Clock;
@@ -227,7 +227,7 @@ where
         let mut bodies = bodies.iter();
         self.begin(|dynamics| match bodies.next() {
             Some(bodies) => dynamics.state_of(bodies),
-            None => Err(Fault::StateNotFinite),
+            None => Err(Fault::Step(StepFault::StateNotFinite)),
         });
     }
 

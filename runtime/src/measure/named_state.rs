@@ -20,7 +20,7 @@ use self::bodies::Bodies;
 use self::counters::Counters;
 use self::names::NameOf;
 use self::states::States;
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
@@ -166,7 +166,7 @@ const fn none<T>() -> Option<T> {
 /// Refuses a state that is none.
 fn check<M: Mechanism, S: Real>(time: S, state: &M::State<S>) -> Result<(), Fault> {
     if !time.is_finite() {
-        return Err(Fault::StateNotFinite);
+        return Err(Fault::Step(StepFault::StateNotFinite));
     }
     check_state::<S, M>(state)
 }

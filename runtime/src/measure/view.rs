@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 
 use nalgebra::Vector3;
 
-use crate::error::Fault;
+use crate::error::{Fault, ReadingFault};
 use crate::math::scalar::Scalar;
 use crate::math::vec3::{minus, read, square, times};
 use crate::math::without_bounds::copied;
@@ -255,8 +255,8 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     /// puts in.
     ///
     /// # Errors
-    /// [`Fault::NoEffort`] where the driver's equation was left out as redundant: other joints
-    /// carry what it would.
+    /// [`ReadingFault::NoEffort`] where the driver's equation was left out as redundant: other
+    /// joints carry what it would.
     pub fn driving_effort<J: Driven>(
         &self,
         multipliers: &M::Multipliers<S>,
@@ -266,16 +266,16 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
         let multiplier = row.and_then(|row| multipliers.as_slice().get(row));
         multiplier
             .map(|&multiplier| -multiplier)
-            .ok_or(Fault::NoEffort {
+            .ok_or(Fault::Reading(ReadingFault::NoEffort {
                 joint: joint.name(),
-            })
+            }))
     }
 
     /// What a joint exerts on one of its bodies: force and moment (N, N m, global) reduced to the
     /// joint's point on that body, from the multipliers at this state.
     ///
     /// # Errors
-    /// [`Fault::NotBetween`] for a body that is not of the joint.
+    /// [`ReadingFault::NotBetween`] for a body that is not of the joint.
     pub fn reaction<J>(
         &self,
         multipliers: &M::Multipliers<S>,
@@ -290,7 +290,7 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     /// The same by the place of the body in `between`: 0 is the first, which may be the ground.
     ///
     /// # Errors
-    /// [`Fault::NoSuchPlace`] for a place that `between` does not have.
+    /// [`ReadingFault::NoSuchPlace`] for a place that `between` does not have.
     pub fn reaction_on_place<J>(
         &self,
         multipliers: &M::Multipliers<S>,
@@ -300,11 +300,11 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
         let state = self.state_of_kernels();
         let (constants, time, index) = (self.constants(), self.time, joint.index());
         wrench::<S, M>(constants, time, &state, multipliers, index, place).ok_or_else(|| {
-            Fault::NoSuchPlace {
+            Fault::Reading(ReadingFault::NoSuchPlace {
                 joint: joint.name(),
                 place,
                 places: joint.info().map_or(0, |info| info.bodies.len()),
-            }
+            })
         })
     }
 
@@ -338,7 +338,7 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     /// centre of mass.
     ///
     /// # Errors
-    /// [`Fault::NotBetween`] for a body that is not in the force's `between`.
+    /// [`ReadingFault::NotBetween`] for a body that is not in the force's `between`.
     pub fn load<F>(
         &self,
         force: ForceHandle<M, F>,
@@ -436,8 +436,10 @@ fn place_of<M: Mechanism>(
     body: BodyHandle<M>,
 ) -> Result<usize, Fault> {
     let place = bodies.iter().position(|&b| b == Some(body.index()));
-    place.ok_or_else(|| Fault::NotBetween {
-        element,
-        body: body.name(),
+    place.ok_or_else(|| {
+        Fault::Reading(ReadingFault::NotBetween {
+            element,
+            body: body.name(),
+        })
     })
 }

@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use crate::error::{Fault, LeavesOut, ParameterError};
+use crate::error::{Fault, LeavesOut, ParameterError, StartFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::coordinates::{Coordinates, Evaluation};
 use crate::mechanism::limits::{JointLimits, Several};
@@ -463,10 +463,10 @@ pub trait Mechanism: Sized + 'static {
 pub(crate) fn bodies_alone<M: Mechanism>(by: LeavesOut) -> Result<(), Fault> {
     match M::REPORT.states {
         [] => Ok(()),
-        [first, ..] => Err(Fault::StateLeftOut {
+        [first, ..] => Err(Fault::Start(StartFault::StateLeftOut {
             state: first.name,
             by,
-        }),
+        })),
     }
 }
 

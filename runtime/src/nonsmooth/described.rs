@@ -1,6 +1,6 @@
 //! The limits that a description has, and interactions of a run beside them.
 
-use crate::error::{Fault, Unheeding};
+use crate::error::{AssemblyFault, Fault, StartFault, Unheeding};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::Several;
@@ -121,11 +121,11 @@ pub(crate) fn check_limits<S: Real, M: Mechanism>(
         } else {
             continue;
         };
-        return Err(Fault::BeyondLimit {
+        return Err(Fault::Assembly(AssemblyFault::BeyondLimit {
             joint: interaction.name(),
             value: value.to_f64(),
             limit: limit.to_f64(),
-        });
+        }));
     }
     Ok(())
 }
@@ -141,7 +141,7 @@ fn first_limited<M: Mechanism>() -> Option<&'static str> {
 /// Refuses to leave out the limits of the description.
 pub(crate) fn refuse_limits<M: Mechanism>(by: Unheeding) -> Result<(), Fault> {
     match first_limited::<M>() {
-        Some(joint) => Err(Fault::LimitsLeftOut { joint, by }),
+        Some(joint) => Err(Fault::Start(StartFault::LimitsLeftOut { joint, by })),
         None => Ok(()),
     }
 }

@@ -3,7 +3,7 @@
 use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 
-use crate::error::Fault;
+use crate::error::{Fault, ReadingFault, StartFault};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
@@ -155,10 +155,10 @@ pub(crate) fn named<S: Real, M: Mechanism>(
             let interactions = given.clone().count();
             let named = given.nth(number);
             let named = named.filter(|tracked| Kind::of(&tracked.interaction) == kind);
-            named.ok_or(Fault::NoSuchInteraction {
+            named.ok_or(Fault::Reading(ReadingFault::NoSuchInteraction {
                 number,
                 interactions,
-            })
+            }))
         }
         Which::Limits(reading) => {
             let limits_it = |tracked: &&Tracked<S, M>| {
@@ -166,9 +166,11 @@ pub(crate) fn named<S: Real, M: Mechanism>(
                 let is_of_it = matches!(quantity, Quantity::Joint(of) if *of == reading);
                 is_of_it && matches!(law, Law::Limits(_)) && !tracked.interaction.is_dropped
             };
-            list.iter().find(limits_it).ok_or(Fault::NoSuchLimits {
-                joint: Quantity::<S>::Joint(reading).name::<M>(),
-            })
+            list.iter()
+                .find(limits_it)
+                .ok_or(Fault::Reading(ReadingFault::NoSuchLimits {
+                    joint: Quantity::<S>::Joint(reading).name::<M>(),
+                }))
         }
     }
 }
@@ -181,10 +183,10 @@ pub(crate) fn engage<S: Real, M: Mechanism>(
 ) -> Result<(), Fault> {
     let tracked = named(list, handle)?;
     if let Law::Limits(_) = tracked.interaction.law {
-        return Err(Fault::MisplacedSetting {
+        return Err(Fault::Start(StartFault::MisplacedSetting {
             joint: tracked.interaction.name(),
             setting: if is_engaged { "engage" } else { "release" },
-        });
+        }));
     }
     tracked.update(|status| status.engage(is_engaged));
     Ok(())

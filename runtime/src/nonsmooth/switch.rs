@@ -1,6 +1,6 @@
 //! Impulses, where a mode ends or something else has changed.
 
-use crate::error::Fault;
+use crate::error::{AssemblyFault, Fault, ModeFault, StepFault};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
@@ -97,11 +97,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let is_lower = gaps[0] <= gaps[1];
         let gap = gaps[0].min(gaps[1]);
         if gap < -near.held {
-            return Err(Fault::BeyondLimit {
+            return Err(Fault::Assembly(AssemblyFault::BeyondLimit {
                 joint: self.interaction.name(),
                 value: value.to_f64(),
                 limit: if is_lower { lower } else { upper }.to_f64(),
-            });
+            }));
         }
         let is_held = match status.mode {
             InteractionMode::AtLower => is_lower,
@@ -228,7 +228,12 @@ where
     F: Formulation<S>,
     C: Coordinates<M>,
 {
-    let Fault::BeyondLimit { joint, limit, .. } = fault else {
+    let Fault::Assembly(AssemblyFault::BeyondLimit {
+        joint,
+        value,
+        limit,
+    }) = fault
+    else {
         return fault;
     };
     let chosen = core::array::from_fn(|other| other == index);
@@ -237,7 +242,7 @@ where
     if is_free {
         return fault;
     }
-    against(setting, joint, limit).unwrap_or(fault)
+    against(setting, joint, value > limit).unwrap_or(fault)
 }
 
 /// The fault of a driver that moves a joint on against its limit: of the one that moves fastest.
@@ -245,7 +250,7 @@ where
 fn against<S, M, F, C>(
     setting: &Setting<'_, S, M, F, C>,
     joint: &'static str,
-    limit: f64,
+    is_upper: bool,
 ) -> Option<Fault>
 where
     S: Real,
@@ -269,11 +274,13 @@ where
         }
     }
     let driver = M::REPORT.joint_of(fastest.0)?;
-    (fastest.1 > S::zero()).then(|| Fault::DrivenAgainst {
-        joint,
-        driver,
-        limit,
-        time: setting.saddle.time.to_f64(),
+    (fastest.1 > S::zero()).then(|| {
+        Fault::Mode(ModeFault::DrivenAgainst {
+            joint,
+            driver,
+            is_upper,
+            time: setting.saddle.time.to_f64(),
+        })
     })
 }
 
@@ -326,7 +333,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         setting: &Setting<'_, S, M, F, C>,
         one: &Struck<S>,
     ) -> Result<(), Fault> {
-        let (Law::Limits(limits), Some(sign)) = (&self.interaction.law, one.at_limit) else {
+        let (Law::Limits(_), Some(sign)) = (&self.interaction.law, one.at_limit) else {
             return Ok(());
         };
         let approaches = -(sign * one.before);
@@ -335,9 +342,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         if !goes_on {
             return Ok(());
         }
-        let [lower, upper] = limits.bounds;
-        let limit = if sign > S::zero() { lower } else { upper };
-        let driven = against(setting, self.interaction.name(), limit.to_f64());
+        let driven = against(setting, self.interaction.name(), sign < S::zero());
         Err(driven.unwrap_or_else(|| no_mode(setting, self)))
     }
 
@@ -403,7 +408,7 @@ where
     let first = (0..K).find(asked).and_then(|index| list.get(index));
     problem.solved().ok_or_else(|| {
         let fault = first.map(|tracked| no_mode(setting, tracked));
-        fault.unwrap_or(Fault::StateNotFinite)
+        fault.unwrap_or(Fault::Step(StepFault::StateNotFinite))
     })
 }
 
@@ -419,8 +424,8 @@ where
     F: Formulation<S>,
     C: Coordinates<M>,
 {
-    Fault::NoMode {
+    Fault::Mode(ModeFault::NoMode {
         joint: tracked.interaction.name(),
         time: setting.saddle.time.to_f64(),
-    }
+    })
 }

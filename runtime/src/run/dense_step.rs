@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Debug};
 
-use crate::error::{Fault, Unheeding};
+use crate::error::{Fault, ReadingFault, StartFault, Unheeding};
 use crate::formulation::Formulation;
 use crate::integrate::{Scheme, StepWithin, System as _};
 use crate::math::scalar::Real;
@@ -79,8 +79,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// As [`Stepper::step`], and [`Fault::LimitsLeftOut`] of limits and other interactions. State
-    /// and time are then as before.
+    /// As [`Stepper::step`], and [`StartFault::LimitsLeftOut`] of limits and other interactions.
+    /// State and time are then as before.
     pub fn step_dense(
         &mut self,
         state: &mut C::State<S>,
@@ -101,10 +101,10 @@ where
         dt: S,
     ) -> Result<DenseStep<S, M, K, C>, Fault> {
         if let Some(first) = self.dynamics.tracked().first() {
-            return Err(Fault::LimitsLeftOut {
+            return Err(Fault::Start(StartFault::LimitsLeftOut {
                 joint: first.interaction.name(),
                 by: Unheeding::DenseStep,
-            });
+            }));
         }
         let start = self.time();
         self.checked(state, dt)?;
@@ -137,14 +137,14 @@ where
     /// before a projection, which the end of the step has.
     ///
     /// # Errors
-    /// [`Fault::OutsideTrajectory`].
+    /// [`ReadingFault::OutsideTrajectory`].
     pub fn within(&self, step: &DenseStep<S, M, K, C>, time: S) -> Result<M::State<S>, Fault> {
         if !(step.start <= time && time <= step.end) {
-            return Err(Fault::OutsideTrajectory {
+            return Err(Fault::Reading(ReadingFault::OutsideTrajectory {
                 time: time.to_f64(),
                 start: step.start.to_f64(),
                 end: step.end.to_f64(),
-            });
+            }));
         }
         let part = if time == step.end {
             S::one()

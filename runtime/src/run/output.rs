@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use crate::error::setting::interval;
 use crate::error::setting::positive;
-use crate::error::{Fault, RunError, SimulationError};
+use crate::error::{Fault, RunError, SimulationError, StepFault};
 use crate::math::scalar::Real;
 
 /// When a run shows its state to the observer; the start and the end are always among the times.
@@ -173,10 +173,10 @@ impl<S: Real> Schedule<S> {
             positive("reporting step", dt)?;
             let latest = if end.abs() > start.abs() { end } else { start };
             if dt < round_off(latest) {
-                return Err(Fault::StepTooShort {
+                return Err(Fault::Step(StepFault::TooShort {
                     step: dt.to_f64(),
                     time: latest.to_f64(),
-                });
+                }));
             }
         }
         Ok(Self {

@@ -3,7 +3,7 @@
 use core::ops::{ControlFlow, RangeInclusive};
 
 use crate::dynamics::{Dynamics, Problem};
-use crate::error::Fault;
+use crate::error::{Fault, StartFault};
 use crate::formulation::Formulation;
 use crate::integrate::{Integrator, Method};
 use crate::math::scalar::Real;
@@ -266,7 +266,7 @@ where
             integrator, given, ..
         } = prepared;
         if is_unverifiable {
-            return Err(Fault::NotVerified);
+            return Err(Fault::Start(StartFault::NotVerified));
         }
         let schedule = Schedule::new(start, end, reporting)?;
         let schedule = schedule.after(past.map_or(0, |past| past.progress.reports));

@@ -99,7 +99,9 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// What a joint exerts on one of its bodies, see [`View::reaction`].
     ///
     /// # Errors
-    /// The fault of the evaluation; [`Fault::NotBetween`] for a body that is not of the joint.
+    /// The fault of the evaluation;
+    /// [`ReadingFault::NotBetween`](crate::error::ReadingFault::NotBetween) for a body that is not
+    /// of the joint.
     pub fn reaction<J>(
         &self,
         joint: JointHandle<M, J>,
@@ -113,8 +115,9 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// [`View::reaction_on_place`].
     ///
     /// # Errors
-    /// The fault of the evaluation; [`Fault::NoSuchPlace`] for a place that `between` does not
-    /// have.
+    /// The fault of the evaluation;
+    /// [`ReadingFault::NoSuchPlace`](crate::error::ReadingFault::NoSuchPlace) for a place that
+    /// `between` does not have.
     pub fn reaction_on_place<J>(
         &self,
         joint: JointHandle<M, J>,
@@ -127,8 +130,9 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The effort of a driver (N for a length, N m for an angle), see [`View::driving_effort`].
     ///
     /// # Errors
-    /// The fault of the evaluation; [`Fault::NoEffort`] where the driver's equation was left out as
-    /// redundant.
+    /// The fault of the evaluation;
+    /// [`ReadingFault::NoEffort`](crate::error::ReadingFault::NoEffort) where the driver's equation
+    /// was left out as redundant.
     pub fn driving_effort<J: Driven>(&self, joint: JointHandle<M, J>) -> Result<S, Fault> {
         let multipliers = &self.evaluation()?.multipliers;
         self.view.driving_effort(multipliers, joint)
@@ -209,7 +213,8 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// more in the next one after an impulse.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
+    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
+    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits).
     pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, Fault> {
         Ok(self.tracked(interaction)?.told_mode())
     }
@@ -239,7 +244,9 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The effort of an interaction (N m, N) along its quantity, positive upwards. One evaluation.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`], the fault of the evaluation.
+    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
+    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits), the fault of the
+    /// evaluation.
     pub fn effort(&self, interaction: InteractionHandle<M>) -> Result<S, Fault> {
         let tracked = self.tracked(interaction)?;
         self.dynamics.find_efforts(self.time(), self.state())?;
@@ -249,7 +256,8 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The last impulse of an interaction in the run so far, if there was one.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
+    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
+    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits).
     pub fn impact(&self, interaction: InteractionHandle<M>) -> Result<Option<Impact<S>>, Fault> {
         Ok(self.tracked(interaction)?.status.get().impact)
     }

@@ -4,8 +4,8 @@ use core::fmt::{self, Debug};
 
 use crate::constraints::projection::Projection;
 use crate::dynamics::{Dynamics, Iterations};
-use crate::error::Fault;
 use crate::error::setting::positive;
+use crate::error::{Fault, StepFault};
 use crate::formulation::Formulation;
 use crate::integrate::{OneStep, Scheme, System as _};
 use crate::math::clock::Clock;
@@ -285,7 +285,7 @@ where
     ///
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
-    /// [`Fault::InteractionSetting`] of a limit.
+    /// [`StartFault::InteractionSetting`](crate::error::StartFault::InteractionSetting) of a limit.
     pub fn update(&mut self, mechanism: &M) -> Result<(), Fault> {
         self.dynamics.update(mechanism)?;
         self.dynamics.renew_limits()
@@ -371,7 +371,7 @@ where
     /// most 8, and 4 for each interaction. So the cost is bounded.
     ///
     /// The steps add up to the time without a growing error. A mechanism with laws of time refuses
-    /// a step below the resolution of the time, [`Fault::StepTooShort`]; without them the time does
+    /// a step below the resolution of the time, [`StepFault::TooShort`]; without them the time does
     /// not matter.
     ///
     /// # Errors
@@ -497,10 +497,10 @@ pub(crate) fn end_of_step<S: Real, M: Mechanism>(
 ) -> Result<Clock<S>, Fault> {
     let time = clock.time();
     if positive("step", dt)? < time.ulp() && M::REPORT.time.is_anywhere() {
-        return Err(Fault::StepTooShort {
+        return Err(Fault::Step(StepFault::TooShort {
             step: dt.to_f64(),
             time: time.to_f64(),
-        });
+        }));
     }
     Ok(clock.after(dt))
 }

@@ -5,7 +5,7 @@ use core::ops::RangeInclusive;
 
 use super::Sensitivities;
 use super::start::check_derivatives;
-use crate::error::{Fault, SimulationError, Unheeding};
+use crate::error::{Fault, SimulationError, StartFault, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::Forward;
 use crate::integrate::Method;
@@ -140,10 +140,11 @@ where
     /// derivatives.
     ///
     /// # Errors
-    /// As [`Simulation::run`]; [`Fault::StartOpens`](crate::Fault::StartOpens) where the
-    /// derivatives of the start violate those of the constraints;
-    /// [`Fault::SwitchLeftOut`] where a law switches; [`Fault::LimitsLeftOut`] of limits in the
-    /// description, unless [`SensitivitySimulation::without_limits`] is said.
+    /// As [`Simulation::run`];
+    /// [`StartFault::DirectionOpens`](crate::error::StartFault::DirectionOpens) where the
+    /// derivatives of the start violate those of the constraints; [`StartFault::SwitchLeftOut`]
+    /// where a law switches; [`StartFault::LimitsLeftOut`] of limits in the description, unless
+    /// [`SensitivitySimulation::without_limits`] is said.
     pub fn run<O, R>(
         &self,
         interval: RangeInclusive<S>,
@@ -159,7 +160,10 @@ where
         let constants = M::prepare(&self.along.parameters);
         let state = self.along.start();
         if let Some(switch) = M::SWITCHES.first() {
-            let (time, fault) = (from.to_f64(), Fault::SwitchLeftOut { law: switch.law });
+            let (time, fault) = (
+                from.to_f64(),
+                Fault::Start(StartFault::SwitchLeftOut { law: switch.law }),
+            );
             return Err(SimulationError { time, fault, state }.into());
         }
         if !self.along.passes_limits

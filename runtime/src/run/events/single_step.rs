@@ -68,8 +68,9 @@ where
     /// ```
     ///
     /// # Errors
-    /// As [`Stepper::step_dense`], and [`Fault::EventNotANumber`] of a reading. State and time are
-    /// then as before.
+    /// As [`Stepper::step_dense`], and
+    /// [`StepFault::EventNotANumber`](crate::error::StepFault::EventNotANumber) of a reading. State
+    /// and time are then as before.
     pub fn step_until(
         &mut self,
         state: &mut C::State<S>,

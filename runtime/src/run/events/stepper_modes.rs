@@ -2,7 +2,7 @@
 
 use crate::dynamics::Dynamics;
 use crate::dynamics::evaluate::Evaluate;
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault};
 use crate::formulation::Formulation;
 use crate::integrate::{Scheme, StepWithin, System as _};
 use crate::math::scalar::Real;
@@ -36,7 +36,8 @@ where
     /// before the first step.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
+    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
+    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits).
     pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, Fault> {
         Ok(named(self.dynamics.tracked(), interaction)?.told_mode())
     }
@@ -45,7 +46,9 @@ where
     /// evaluation.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`], the fault of the evaluation.
+    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
+    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits), the fault of the
+    /// evaluation.
     pub fn effort(
         &self,
         interaction: InteractionHandle<M>,
@@ -59,7 +62,8 @@ where
     /// The last impulse of an interaction so far, if there was one.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
+    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
+    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits).
     pub fn impact(&self, interaction: InteractionHandle<M>) -> Result<Option<Impact<S>>, Fault> {
         Ok(named(self.dynamics.tracked(), interaction)?
             .status
@@ -70,7 +74,8 @@ where
     /// Engages dry friction, a brake or a clutch, from the next step on.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`]; [`Fault::MisplacedSetting`] of limits.
+    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction);
+    /// [`StartFault::MisplacedSetting`](crate::error::StartFault::MisplacedSetting) of limits.
     pub fn engage(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
         engage(self.dynamics.tracked(), interaction, true)
     }
@@ -169,11 +174,11 @@ where
             }
         }
         let list = dynamics.tracked();
-        Err(Fault::EndlessModes {
+        Err(Fault::Mode(ModeFault::Endless {
             joint: list.first().map_or("", |first| first.interaction.name()),
             changes,
             time: time.to_f64(),
-        })
+        }))
     }
 }
 

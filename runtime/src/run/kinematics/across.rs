@@ -6,7 +6,7 @@
 //! rates. What it takes has no limit there, so that the sample refuses it by name.
 
 use super::motion::{Found, Motion};
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
@@ -113,11 +113,11 @@ where
             time,
             state,
             accelerations,
-            evaluation: Err(Fault::Singular {
+            evaluation: Err(Fault::Step(StepFault::Singular {
                 joint,
                 name: M::REPORT.joints.get(joint).map_or("", |info| info.name),
                 relative_pivot: pivot.relative.to_f64(),
-            }),
+            })),
         };
         Some((found, first + second))
     }
