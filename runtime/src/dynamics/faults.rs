@@ -110,7 +110,7 @@ where
     #[inline(never)]
     pub(super) fn fault(&self, time: S, state: &C::State<S>) -> Fault {
         if let Err(fault) = C::check(state) {
-            return fault;
+            return fault.into();
         }
         let mut rates = C::State::zeros();
         let pivot = self.solved_again(time, state, &mut rates);
@@ -119,7 +119,7 @@ where
         }
         let bodies = &C::bodies(&self.equations.constants, state);
         if let Err(fault) = check_state::<S, M>(bodies) {
-            return fault;
+            return fault.into();
         }
         let read = &with_unit_orientations::<S, M>(bodies);
         let applied = A::PRESENT.then(|| {

@@ -331,7 +331,7 @@ impl<S: Real, M: Mechanism, F: Formulation<S>, A, C: Coordinates<M>> Dynamics<S,
     /// # Errors
     /// An input that is not finite; the former ones then stay.
     #[inline]
-    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault> {
+    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), ParameterError> {
         M::put_inputs(inputs, &mut self.parameters)?;
         M::take_inputs(&self.parameters, &mut self.absolute.constants);
         C::take_inputs(&self.parameters, &mut self.own);

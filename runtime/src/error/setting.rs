@@ -1,6 +1,6 @@
 //! Settings that a user gives.
 
-use crate::error::{Fault, StartFault};
+use crate::error::StartFault;
 use crate::math::scalar::Real;
 
 /// Refuses a setting that is not finite and positive.
@@ -16,9 +16,9 @@ pub(crate) fn positive<S: Real>(name: &'static str, value: S) -> Result<S, Start
 }
 
 /// The fault of an interval.
-pub(crate) fn interval<S: Real>(start: S, end: S) -> Fault {
-    Fault::Start(StartFault::Interval {
+pub(crate) fn interval<S: Real>(start: S, end: S) -> StartFault {
+    StartFault::Interval {
         start: start.to_f64(),
         end: end.to_f64(),
-    })
+    }
 }

@@ -141,11 +141,11 @@ impl<S: Real> AlphaWeights<S> {
     ///
     /// # Errors
     /// [`StartFault::SpectralRadius`] if it is not from 0 to 1.
-    pub fn of(rho: S) -> Result<Self, Fault> {
+    pub fn of(rho: S) -> Result<Self, StartFault> {
         if !(rho >= S::zero() && rho <= S::one()) {
-            return Err(Fault::Start(StartFault::SpectralRadius {
+            return Err(StartFault::SpectralRadius {
                 value: rho.to_f64(),
-            }));
+            });
         }
         let sum = rho + S::one();
         let alpha_m = (rho + rho - S::one()).quotient(sum);

@@ -108,7 +108,7 @@ pub(crate) use self::newton::by_differences;
 
 use self::slopes::named;
 use crate::error::setting::interval;
-use crate::error::{Fault, StepFault};
+use crate::error::{Fault, StartFault, StepFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::state::vector::Vector;
 
@@ -534,7 +534,7 @@ pub struct TimeSpan<S> {
 
 impl<S: Real> TimeSpan<S> {
     /// Its length (s), finite and positive.
-    fn duration(&self) -> Result<S, Fault> {
+    fn duration(&self) -> Result<S, StartFault> {
         let duration = self.end - self.start;
         if duration.is_finite() && duration > S::zero() {
             Ok(duration)

@@ -7,7 +7,7 @@ use super::equations::LaneEquations;
 use super::exchange::{put_state, state_of};
 use super::number::Lanes;
 use crate::dynamics::Dynamics;
-use crate::error::{Fault, SimulationError, StepFault};
+use crate::error::{Fault, ParameterError, SimulationError, StepFault};
 use crate::formulation::Formulation;
 use crate::integrate::Scheme;
 use crate::math::clock::Clock;
@@ -246,7 +246,7 @@ where
     ///
     /// # Errors
     /// An input that is not finite. Its lane and those behind it then keep the former ones.
-    pub fn set_inputs(&mut self, inputs: &[M::Inputs<T>; L]) -> Result<(), Fault> {
+    pub fn set_inputs(&mut self, inputs: &[M::Inputs<T>; L]) -> Result<(), ParameterError> {
         let mut lanes = self.dynamics.iter_mut().zip(inputs);
         let outcome = lanes.try_for_each(|(dynamics, inputs)| dynamics.set_inputs(inputs));
         for (lane, stopped) in self.stopped.iter().enumerate() {

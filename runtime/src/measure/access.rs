@@ -175,15 +175,15 @@ pub trait MechanismExt: Mechanism {
         state: &mut Self::State<S>,
         element: E,
         angles: &[S],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), AssemblyFault> {
         let coordinates = state.coordinates_mut().as_mut_slice();
         let places = coordinates.get_mut(element.counters()).unwrap_or(&mut []);
         if places.len() != angles.len() {
-            return Err(Fault::Assembly(AssemblyFault::CountedAngles {
+            return Err(AssemblyFault::CountedAngles {
                 element: element.element(),
                 counted: places.len(),
                 given: angles.len(),
-            }));
+            });
         }
         for (place, &angle) in places.iter_mut().zip(angles) {
             *place = angle;

@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 
 use nalgebra::Vector3;
 
-use crate::error::{Fault, ReadingFault};
+use crate::error::ReadingFault;
 use crate::math::scalar::Scalar;
 use crate::math::vec3::{minus, read, square, times};
 use crate::math::without_bounds::copied;
@@ -261,14 +261,14 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
         &self,
         multipliers: &M::Multipliers<S>,
         joint: JointHandle<M, J>,
-    ) -> Result<S, Fault> {
+    ) -> Result<S, ReadingFault> {
         let row = joint.row(J::ROW);
         let multiplier = row.and_then(|row| multipliers.as_slice().get(row));
         multiplier
             .map(|&multiplier| -multiplier)
-            .ok_or(Fault::Reading(ReadingFault::NoEffort {
+            .ok_or(ReadingFault::NoEffort {
                 joint: joint.name(),
-            }))
+            })
     }
 
     /// What a joint exerts on one of its bodies: force and moment (N, N m, global) reduced to the
@@ -281,7 +281,7 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
         multipliers: &M::Multipliers<S>,
         joint: JointHandle<M, J>,
         body: BodyHandle<M>,
-    ) -> Result<Wrench<S>, Fault> {
+    ) -> Result<Wrench<S>, ReadingFault> {
         let bodies = joint.info().map_or(&[][..], |info| info.bodies);
         let place = place_of(bodies, joint.name(), body)?;
         self.reaction_on_place(multipliers, joint, place)
@@ -296,15 +296,15 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
         multipliers: &M::Multipliers<S>,
         joint: JointHandle<M, J>,
         place: usize,
-    ) -> Result<Wrench<S>, Fault> {
+    ) -> Result<Wrench<S>, ReadingFault> {
         let state = self.state_of_kernels();
         let (constants, time, index) = (self.constants(), self.time, joint.index());
         wrench::<S, M>(constants, time, &state, multipliers, index, place).ok_or_else(|| {
-            Fault::Reading(ReadingFault::NoSuchPlace {
+            ReadingFault::NoSuchPlace {
                 joint: joint.name(),
                 place,
                 places: joint.info().map_or(0, |info| info.bodies.len()),
-            })
+            }
         })
     }
 
@@ -343,7 +343,7 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
         &self,
         force: ForceHandle<M, F>,
         body: BodyHandle<M>,
-    ) -> Result<Wrench<S>, Fault> {
+    ) -> Result<Wrench<S>, ReadingFault> {
         let bodies = force.info().map_or(&[][..], |info| info.bodies);
         let place = place_of(bodies, force.name(), body)?;
         let [fx, fy, fz, mx, my, mz] = M::force_load(
@@ -434,12 +434,10 @@ fn place_of<M: Mechanism>(
     bodies: &[Option<usize>],
     element: &'static str,
     body: BodyHandle<M>,
-) -> Result<usize, Fault> {
+) -> Result<usize, ReadingFault> {
     let place = bodies.iter().position(|&b| b == Some(body.index()));
-    place.ok_or_else(|| {
-        Fault::Reading(ReadingFault::NotBetween {
-            element,
-            body: body.name(),
-        })
+    place.ok_or_else(|| ReadingFault::NotBetween {
+        element,
+        body: body.name(),
     })
 }

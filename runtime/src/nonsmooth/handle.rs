@@ -148,17 +148,17 @@ impl<M> JointQuantity<M> {
 pub(crate) fn named<S: Real, M: Mechanism>(
     list: &[Tracked<S, M>],
     handle: InteractionHandle<M>,
-) -> Result<&Tracked<S, M>, Fault> {
+) -> Result<&Tracked<S, M>, ReadingFault> {
     match handle.which {
         Which::Listed(number, kind) => {
             let mut given = list.iter().filter(|of| !of.interaction.is_described);
             let interactions = given.clone().count();
             let named = given.nth(number);
             let named = named.filter(|tracked| Kind::of(&tracked.interaction) == kind);
-            named.ok_or(Fault::Reading(ReadingFault::NoSuchInteraction {
+            named.ok_or(ReadingFault::NoSuchInteraction {
                 number,
                 interactions,
-            }))
+            })
         }
         Which::Limits(reading) => {
             let limits_it = |tracked: &&Tracked<S, M>| {
@@ -168,9 +168,9 @@ pub(crate) fn named<S: Real, M: Mechanism>(
             };
             list.iter()
                 .find(limits_it)
-                .ok_or(Fault::Reading(ReadingFault::NoSuchLimits {
+                .ok_or(ReadingFault::NoSuchLimits {
                     joint: Quantity::<S>::Joint(reading).name::<M>(),
-                }))
+                })
         }
     }
 }

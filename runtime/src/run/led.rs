@@ -279,7 +279,7 @@ where
         let at = self.way.at.time;
         // One that is no number is not after it either.
         if time.partial_cmp(&at).is_none_or(core::cmp::Ordering::is_lt) {
-            return Err(failed(interval(at, time), &self.way.at));
+            return Err(failed(interval(at, time).into(), &self.way.at));
         }
         let time = time.min(self.course.hybrid.end);
         loop {

@@ -237,7 +237,7 @@ where
             bodies: self.initial.unwrap_or_else(zeros),
         };
         let past = plan.past(&self.integrator, &self.formulation, C::IS_RELATIVE);
-        let report = past.and_then(|past| {
+        let report = past.map_err(Fault::from).and_then(|past| {
             let plan = (interval, reporting, past.as_ref());
             self.attempt(forces, happenings, plan, &mut observe, &mut last_good)
         });

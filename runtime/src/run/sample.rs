@@ -7,7 +7,7 @@ use core::ops::Deref;
 use nalgebra::Vector3;
 
 use crate::dynamics::evaluate::Evaluate;
-use crate::error::Fault;
+use crate::error::{Fault, ReadingFault};
 use crate::math::scalar::Real;
 use crate::measure::reaction::Wrench;
 use crate::measure::view::View;
@@ -100,15 +100,14 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     ///
     /// # Errors
     /// The fault of the evaluation;
-    /// [`ReadingFault::NotBetween`](crate::error::ReadingFault::NotBetween) for a body that is not
-    /// of the joint.
+    /// [`ReadingFault::NotBetween`] for a body that is not of the joint.
     pub fn reaction<J>(
         &self,
         joint: JointHandle<M, J>,
         body: BodyHandle<M>,
     ) -> Result<Wrench<S>, Fault> {
         let multipliers = &self.evaluation()?.multipliers;
-        self.view.reaction(multipliers, joint, body)
+        Ok(self.view.reaction(multipliers, joint, body)?)
     }
 
     /// What a joint exerts on the body at a place of its `between`, see
@@ -116,26 +115,24 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     ///
     /// # Errors
     /// The fault of the evaluation;
-    /// [`ReadingFault::NoSuchPlace`](crate::error::ReadingFault::NoSuchPlace) for a place that
-    /// `between` does not have.
+    /// [`ReadingFault::NoSuchPlace`] for a place that `between` does not have.
     pub fn reaction_on_place<J>(
         &self,
         joint: JointHandle<M, J>,
         place: usize,
     ) -> Result<Wrench<S>, Fault> {
         let multipliers = &self.evaluation()?.multipliers;
-        self.view.reaction_on_place(multipliers, joint, place)
+        Ok(self.view.reaction_on_place(multipliers, joint, place)?)
     }
 
     /// The effort of a driver (N for a length, N m for an angle), see [`View::driving_effort`].
     ///
     /// # Errors
     /// The fault of the evaluation;
-    /// [`ReadingFault::NoEffort`](crate::error::ReadingFault::NoEffort) where the driver's equation
-    /// was left out as redundant.
+    /// [`ReadingFault::NoEffort`] where the driver's equation was left out as redundant.
     pub fn driving_effort<J: Driven>(&self, joint: JointHandle<M, J>) -> Result<S, Fault> {
         let multipliers = &self.evaluation()?.multipliers;
-        self.view.driving_effort(multipliers, joint)
+        Ok(self.view.driving_effort(multipliers, joint)?)
     }
 
     /// Accelerations `u'` (m/s^2 global; rad/s^2 principal body axes), one per velocity. By handle
@@ -213,9 +210,8 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// more in the next one after an impulse.
     ///
     /// # Errors
-    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
-    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits).
-    pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, Fault> {
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`].
+    pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, ReadingFault> {
         Ok(self.tracked(interaction)?.told_mode())
     }
 
@@ -244,8 +240,7 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The effort of an interaction (N m, N) along its quantity, positive upwards. One evaluation.
     ///
     /// # Errors
-    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
-    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits), the fault of the
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`], the fault of the
     /// evaluation.
     pub fn effort(&self, interaction: InteractionHandle<M>) -> Result<S, Fault> {
         let tracked = self.tracked(interaction)?;
@@ -256,13 +251,18 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The last impulse of an interaction in the run so far, if there was one.
     ///
     /// # Errors
-    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
-    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits).
-    pub fn impact(&self, interaction: InteractionHandle<M>) -> Result<Option<Impact<S>>, Fault> {
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`].
+    pub fn impact(
+        &self,
+        interaction: InteractionHandle<M>,
+    ) -> Result<Option<Impact<S>>, ReadingFault> {
         Ok(self.tracked(interaction)?.status.get().impact)
     }
 
-    fn tracked(&self, interaction: InteractionHandle<M>) -> Result<&'a Tracked<S, M>, Fault> {
+    fn tracked(
+        &self,
+        interaction: InteractionHandle<M>,
+    ) -> Result<&'a Tracked<S, M>, ReadingFault> {
         named(self.interactions(), interaction)
     }
 

@@ -5,7 +5,7 @@ use core::fmt::{self, Debug};
 use crate::constraints::projection::Projection;
 use crate::dynamics::{Dynamics, Iterations};
 use crate::error::setting::positive;
-use crate::error::{Fault, StepFault};
+use crate::error::{Fault, ParameterError, StepFault};
 use crate::formulation::Formulation;
 use crate::integrate::{OneStep, Scheme, System as _};
 use crate::math::clock::Clock;
@@ -297,7 +297,7 @@ where
     /// # Errors
     /// An input that is not finite; the former ones then stay.
     #[inline]
-    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault> {
+    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), ParameterError> {
         self.dynamics.set_inputs(inputs)
     }
 

@@ -141,9 +141,9 @@ where
     ///
     /// # Errors
     /// As [`Simulation::run`];
-    /// [`StartFault::DirectionOpens`](crate::error::StartFault::DirectionOpens) where the
-    /// derivatives of the start violate those of the constraints; [`StartFault::SwitchLeftOut`]
-    /// where a law switches; [`StartFault::LimitsLeftOut`] of limits in the description, unless
+    /// [`StartFault::DirectionOpens`] where the derivatives of the start violate those of the
+    /// constraints; [`StartFault::SwitchLeftOut`] where a law switches;
+    /// [`StartFault::LimitsLeftOut`] of limits in the description, unless
     /// [`SensitivitySimulation::without_limits`] is said.
     pub fn run<O, R>(
         &self,
@@ -159,23 +159,16 @@ where
         let [start, end] = [from, to].map(Forward::fixed);
         let constants = M::prepare(&self.along.parameters);
         let state = self.along.start();
+        let time = from.to_f64();
+        let refused = |fault: Fault| R::Error::from(SimulationError { time, fault, state });
         if let Some(switch) = M::SWITCHES.first() {
-            let (time, fault) = (
-                from.to_f64(),
-                Fault::Start(StartFault::SwitchLeftOut { law: switch.law }),
-            );
-            return Err(SimulationError { time, fault, state }.into());
+            let fault = StartFault::SwitchLeftOut { law: switch.law };
+            return Err(refused(fault.into()));
         }
-        if !self.along.passes_limits
-            && let Err(fault) = refuse_limits::<M>(Unheeding::Derivatives)
-        {
-            let time = from.to_f64();
-            return Err(SimulationError { time, fault, state }.into());
+        if !self.along.passes_limits {
+            refuse_limits::<M>(Unheeding::Derivatives).map_err(|fault| refused(fault.into()))?;
         }
-        check_derivatives::<M, K, S>(&constants, start, &state).map_err(|fault| {
-            let time = from.to_f64();
-            R::Error::from(SimulationError { time, fault, state })
-        })?;
+        check_derivatives::<M, K, S>(&constants, start, &state).map_err(refused)?;
         let reporting = match reporting {
             Reporting::Every(interval) => Reporting::Every(Forward::fixed(interval)),
             Reporting::EveryStep => Reporting::EveryStep,

@@ -315,10 +315,10 @@ fn what_is_not_there_is_not_read_as_zero() {
     let fault = view.reaction(&multipliers, PIVOT, stranger).unwrap_err();
     assert!(matches!(
         fault,
-        Fault::Reading(ReadingFault::NotBetween {
+        ReadingFault::NotBetween {
             element: "pivot",
             ..
-        })
+        }
     ));
     let fault = view.reaction_on_place(&multipliers, PIVOT, 2).unwrap_err();
     assert_eq!(

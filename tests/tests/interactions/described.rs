@@ -359,7 +359,7 @@ fn elements_of_arrays_have_limits_of_their_own() {
             }
             let [first, second] = h.hinges.map(|hinge| sample.mode(hinge.angle().limits()));
             assert!(first.is_ok() && second.is_ok());
-            let fault = Fault::Reading(ReadingFault::NoSuchLimits { joint: "root" });
+            let fault = ReadingFault::NoSuchLimits { joint: "root" };
             assert_eq!(sample.mode(h.root.angle().limits()), Err(fault));
         })
         .expect("it swings");
@@ -455,7 +455,7 @@ fn equilibria_beyond_a_limit_are_named() -> Result<(), Fault> {
     assert!(space.equilibrium(&inside).is_ok() && space.check_limits(&inside).is_ok());
     let found = [
         space.equilibrium(&beyond).err(),
-        space.check_limits(&beyond).err(),
+        space.check_limits(&beyond).map_err(Fault::from).err(),
     ];
     for fault in found {
         let is_told = matches!(

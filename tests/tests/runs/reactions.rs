@@ -141,9 +141,9 @@ fn a_joint_has_no_reaction_on_a_body_that_is_not_its_own() {
     let refused = view.reaction(&evaluation.multipliers, handles.hinge, handles.lower);
     assert_eq!(
         refused,
-        Err(Fault::Reading(ReadingFault::NotBetween {
+        Err(ReadingFault::NotBetween {
             element: "hinge",
             body: "lower"
-        }))
+        })
     );
 }

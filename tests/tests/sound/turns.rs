@@ -91,11 +91,11 @@ fn a_spring_that_was_wound_up_stays_so_when_its_poses_are_set() {
             .expect_err("another number of them");
         assert_eq!(
             fault,
-            Fault::Assembly(AssemblyFault::CountedAngles {
+            AssemblyFault::CountedAngles {
                 element: "spring",
                 counted: 1,
                 given: angles.len()
-            })
+            }
         );
     }
     Clockwork::set_unwrapped_angles(&mut state, handles.bearing, &[1.0]).expect_err("none");

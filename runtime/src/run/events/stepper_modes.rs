@@ -2,7 +2,7 @@
 
 use crate::dynamics::Dynamics;
 use crate::dynamics::evaluate::Evaluate;
-use crate::error::{Fault, ModeFault};
+use crate::error::{Fault, ModeFault, ReadingFault};
 use crate::formulation::Formulation;
 use crate::integrate::{Scheme, StepWithin, System as _};
 use crate::math::scalar::Real;
@@ -36,9 +36,8 @@ where
     /// before the first step.
     ///
     /// # Errors
-    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
-    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits).
-    pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, Fault> {
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`].
+    pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, ReadingFault> {
         Ok(named(self.dynamics.tracked(), interaction)?.told_mode())
     }
 
@@ -46,8 +45,7 @@ where
     /// evaluation.
     ///
     /// # Errors
-    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
-    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits), the fault of the
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`], the fault of the
     /// evaluation.
     pub fn effort(
         &self,
@@ -62,9 +60,11 @@ where
     /// The last impulse of an interaction so far, if there was one.
     ///
     /// # Errors
-    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction),
-    /// [`ReadingFault::NoSuchLimits`](crate::error::ReadingFault::NoSuchLimits).
-    pub fn impact(&self, interaction: InteractionHandle<M>) -> Result<Option<Impact<S>>, Fault> {
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`].
+    pub fn impact(
+        &self,
+        interaction: InteractionHandle<M>,
+    ) -> Result<Option<Impact<S>>, ReadingFault> {
         Ok(named(self.dynamics.tracked(), interaction)?
             .status
             .get()
@@ -74,7 +74,7 @@ where
     /// Engages dry friction, a brake or a clutch, from the next step on.
     ///
     /// # Errors
-    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction);
+    /// [`ReadingFault::NoSuchInteraction`];
     /// [`StartFault::MisplacedSetting`](crate::error::StartFault::MisplacedSetting) of limits.
     pub fn engage(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
         engage(self.dynamics.tracked(), interaction, true)

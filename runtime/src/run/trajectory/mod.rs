@@ -14,7 +14,7 @@ use core::fmt::{self, Debug};
 use core::ops::RangeInclusive;
 use std::vec::Vec;
 
-use crate::error::{Fault, ReadingFault};
+use crate::error::ReadingFault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
@@ -132,7 +132,7 @@ impl<M: Mechanism, S: Real> Trajectory<M, S> {
     ///
     /// # Errors
     /// [`ReadingFault::OutsideTrajectory`].
-    pub fn at(&self, time: S) -> Result<M::State<S>, Fault> {
+    pub fn at(&self, time: S) -> Result<M::State<S>, ReadingFault> {
         let place = self.pieces.partition_point(|piece| piece.start <= time);
         self.within(place.checked_sub(1), time)
     }
@@ -141,13 +141,13 @@ impl<M: Mechanism, S: Real> Trajectory<M, S> {
     ///
     /// # Errors
     /// [`ReadingFault::OutsideTrajectory`].
-    pub fn before(&self, time: S) -> Result<M::State<S>, Fault> {
+    pub fn before(&self, time: S) -> Result<M::State<S>, ReadingFault> {
         let place = self.pieces.partition_point(|piece| piece.end < time);
         self.within(Some(place), time)
     }
 
     /// The state in a piece, which must be there and hold the time.
-    fn within(&self, place: Option<usize>, time: S) -> Result<M::State<S>, Fault> {
+    fn within(&self, place: Option<usize>, time: S) -> Result<M::State<S>, ReadingFault> {
         let piece = place.and_then(|place| self.pieces.get(place));
         let piece = piece.filter(|piece| piece.start <= time && time <= piece.end);
         let state = piece.and_then(|piece| {
@@ -165,11 +165,11 @@ impl<M: Mechanism, S: Real> Trajectory<M, S> {
         });
         state.ok_or_else(|| {
             let (first, last) = (self.pieces.first(), self.pieces.last());
-            Fault::Reading(ReadingFault::OutsideTrajectory {
+            ReadingFault::OutsideTrajectory {
                 time: time.to_f64(),
                 start: first.map_or(f64::NAN, |piece| piece.start.to_f64()),
                 end: last.map_or(f64::NAN, |piece| piece.end.to_f64()),
-            })
+            }
         })
     }
 
