@@ -15,6 +15,9 @@ use crate::error::step::StepFault;
 /// Why something could not be done, by what was done: each variant holds a family of faults.
 ///
 /// What can fail for one reason alone returns the family, and `?` makes a `Fault` of it.
+///
+/// `{:?}` is the sentence of `Display`, for a `main` that returns the error. `{:#?}` has the
+/// fields.
 #[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Fault {
@@ -77,15 +80,14 @@ impl fmt::Display for Fault {
 
 impl fmt::Debug for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
-    }
-}
-
-impl core::error::Error for Fault {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Parameter(error) => Some(error),
-            _ => None,
+        let (name, family) = self.family();
+        if f.alternate() {
+            f.debug_tuple(name).field(&family).finish()
+        } else {
+            fmt::Display::fmt(family, f)
         }
     }
 }
+
+/// No source: the sentence is that of the family, and a chain of sources would say it twice.
+impl core::error::Error for Fault {}

@@ -1,4 +1,4 @@
-//! What a fault says, word for word.
+//! What a fault says, word for word, and what is shown of it.
 
 extern crate std;
 
@@ -327,22 +327,80 @@ fn what_is_not_there_is_not_read_as_zero() {
     );
 }
 
+/// Who walks along the sources and prints each one says every sentence once.
 #[test]
-fn what_stopped_a_run_is_the_source_of_its_error() {
-    let error = SimulationError {
+fn a_chain_of_sources_says_a_sentence_once() {
+    let error = refused();
+    assert_eq!(
+        error.to_string(),
+        "at 1.5 s: `value` of `mass` must be positive"
+    );
+    assert!(error.source().is_none() && error.fault.source().is_none());
+    let run = RunError::<(), &str>::Simulation(error);
+    assert!(run.source().is_none());
+}
+
+fn refused() -> SimulationError<()> {
+    let fault = Fault::Parameter(ParameterError {
+        field: "mass",
+        attribute: "value",
+        fault: ParameterFault::NotPositive,
+    });
+    SimulationError {
         time: 1.5,
-        fault: Fault::Parameter(ParameterError {
-            field: "mass",
-            attribute: "value",
-            fault: ParameterFault::NotPositive,
-        }),
+        fault,
         state: (),
-    };
-    let fault = error.source().expect("a fault");
-    assert_eq!(fault.to_string(), error.fault.to_string());
-    let parameter = fault.source().expect("a parameter");
-    assert!(parameter.downcast_ref::<ParameterError>().is_some());
-    assert!(parameter.source().is_none());
+    }
+}
+
+/// In one line an error is a sentence; in several it keeps what it holds, but the state.
+#[test]
+fn an_error_that_is_shown_in_full_has_its_fields() {
+    let singular = Fault::Step(StepFault::Singular {
+        joint: 2,
+        name: "pivot",
+        relative_pivot: 0.0,
+    });
+    assert_eq!(
+        format!("{singular:?}"),
+        "the constraints depend on each other at joint `pivot` (relative pivot 0)"
+    );
+    let fields = "Step(
+    Singular {
+        joint: 2,
+        name: \"pivot\",
+        relative_pivot: 0.0,
+    },
+)";
+    assert_eq!(format!("{singular:#?}"), fields);
+    let run = RunError::<(), &str>::Simulation(refused());
+    assert_eq!(
+        format!("{run:?}"),
+        "at 1.5 s: `value` of `mass` must be positive"
+    );
+    let fields = "Simulation(
+    SimulationError {
+        time: 1.5,
+        fault: Parameter(
+            ParameterError {
+                field: \"mass\",
+                attribute: \"value\",
+                fault: NotPositive,
+            },
+        ),
+        ..
+    },
+)";
+    assert_eq!(format!("{run:#?}"), fields);
+    let stopped = RunError::<(), &str>::Observer("the disk is full");
+    assert_eq!(format!("{stopped:#?}"), "the disk is full");
+}
+
+/// A step hands it on.
+#[test]
+#[cfg(target_pointer_width = "64")]
+fn a_fault_is_as_small_as_what_it_says() {
+    assert_eq!(size_of::<Fault>(), size_of::<ParameterError>());
 }
 
 #[test]

@@ -94,11 +94,8 @@ fn a_fault_of_the_run_is_told_from_one_of_the_observer() {
     let plain = simulation!(&rod).run(f64::NAN..=1.0, every(0.1), |_| ());
     let plain: SimulationError<State<f64, 7, 6>> = plain.unwrap_err();
     assert_eq!(plain.fault.to_string(), error.fault.to_string());
-    let source = RunError::<_, Full>::from(plain);
-    assert_eq!(
-        source.source().unwrap().to_string(),
-        error.fault.to_string()
-    );
+    let whole = RunError::<_, Full>::from(plain);
+    assert_eq!(whole.to_string(), error.to_string());
 }
 
 /// `?` hands on either error of a run whose observer returns any error at all.
