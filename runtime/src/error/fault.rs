@@ -18,6 +18,19 @@ use crate::error::step::StepFault;
 ///
 /// `{:?}` is the sentence of `Display`, for a `main` that returns the error. `{:#?}` has the
 /// fields.
+///
+/// ```
+/// use holonom::{Fault, error::StepFault};
+///
+/// fn depends(fault: Fault) -> Option<&'static str> {
+///     match fault {
+///         Fault::Step(StepFault::Singular { name, .. }) => Some(name),
+///         _ => None,
+///     }
+/// }
+/// let fault = StepFault::Singular { joint: 0, name: "crank", relative_pivot: 0.0 };
+/// assert_eq!(depends(fault.into()), Some("crank"));
+/// ```
 #[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Fault {
