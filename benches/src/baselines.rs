@@ -4,6 +4,7 @@
 //! computed from it, the rates of the Euler parameters included: that is what gives the published
 //! counts of evaluations.
 
+use holonom::error::StepFault;
 use holonom::{Fault, error::NotFinite, integrate::System};
 use holonom_assembler::bodies::Orientation;
 use holonom_assembler::formulation::{Evaluator, Formulation, SolveError};
@@ -148,9 +149,9 @@ impl System<f64> for StaticSchur {
         let mut rates = [0.0; 13];
         match self.0.rates_schur(time, &unit(state), &mut rates) {
             Some(_) => Ok(rates),
-            None => Err(Fault::RatesNotFinite {
+            None => Err(Fault::Step(StepFault::RatesNotFinite {
                 origin: NotFinite::Unknown,
-            }),
+            })),
         }
     }
 }
@@ -163,9 +164,9 @@ impl System<f64> for StaticElimination {
         let mut rates = [0.0; 13];
         match self.0.rates_lu(time, &unit(state), &mut rates) {
             Some(_) => Ok(rates),
-            None => Err(Fault::RatesNotFinite {
+            None => Err(Fault::Step(StepFault::RatesNotFinite {
                 origin: NotFinite::Unknown,
-            }),
+            })),
         }
     }
 }
@@ -232,15 +233,15 @@ pub fn rivals(settings: &Settings) -> Vec<Rival<'static>> {
 
 fn fault(error: SolveError, iterations: usize) -> Fault {
     match error {
-        SolveError::Singular => Fault::RatesNotFinite {
+        SolveError::Singular => Fault::Step(StepFault::RatesNotFinite {
             origin: NotFinite::Unknown,
-        },
-        SolveError::NotConverged => Fault::NotConverged {
-            iterations,
+        }),
+        SolveError::NotConverged => Fault::Step(StepFault::NotConverged {
+            iterations: u32::try_from(iterations).unwrap_or(u32::MAX),
             residual: f64::NAN,
             joint: None,
             alpha: None,
-        },
+        }),
     }
 }
 

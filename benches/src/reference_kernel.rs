@@ -10,6 +10,7 @@
 
 use std::hint::black_box;
 
+use holonom::error::StepFault;
 use holonom::{Fault, Real, Scalar, error::NotFinite, integrate::System, state::Vector as _};
 use holonom_study::StudyError;
 use holonom_study::compare::measure::{Subject, candidates};
@@ -181,9 +182,9 @@ impl<S: Real> System<S> for ReferenceKernel {
         if rates.is_finite() {
             Ok(rates)
         } else {
-            Err(Fault::RatesNotFinite {
+            Err(Fault::Step(StepFault::RatesNotFinite {
                 origin: NotFinite::Unknown,
-            })
+            }))
         }
     }
 

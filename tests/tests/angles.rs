@@ -5,7 +5,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use holonom::error::AngleSet;
+use holonom::error::{AngleSet, ReadingFault, StepFault};
 use holonom::measure::{BryantAngles, EulerAngles, RollPitchYaw};
 use holonom::prelude::*;
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
@@ -232,7 +232,10 @@ fn what_is_singular_is_refused_with_a_sentence() -> Result<(), Box<dyn std::erro
     are_near(view.bryant_angles(h.straight)?, [0.0; 3]);
     let fault = view.roll_pitch_yaw(h.upright).expect_err("upright");
     let (body, angles) = ("upright", AngleSet::RollPitchYaw);
-    assert_eq!(fault, Fault::SingularAngles { body, angles });
+    assert_eq!(
+        fault,
+        Fault::Reading(ReadingFault::SingularAngles { body, angles })
+    );
     assert!(view.euler_angles(h.upright).is_ok());
     // A body against itself.
     assert!(view.relative_euler_angles(h.rpy, h.rpy).is_err());
@@ -240,8 +243,8 @@ fn what_is_singular_is_refused_with_a_sentence() -> Result<(), Box<dyn std::erro
 
     let place = Words::REPORT.bodies[h.rpy.index()].coordinate + 3;
     for (value, fault) in [
-        (0.0, Fault::ZeroOrientation { body: "rpy" }),
-        (f64::NAN, Fault::StateNotFinite),
+        (0.0, Fault::Step(StepFault::ZeroOrientation { body: "rpy" })),
+        (f64::NAN, Fault::Step(StepFault::StateNotFinite)),
     ] {
         state.coordinates_mut()[place..place + 4].fill(value);
         let view = words.view(0.0, &state)?;
@@ -386,13 +389,16 @@ fn rates_of_bodies_are_read_and_refused() -> Result<(), Box<dyn std::error::Erro
 
     let (body, angles) = ("straight", AngleSet::EulerZxz);
     let fault = view.euler_angle_rates(h.straight).expect_err("parallel");
-    assert_eq!(fault, Fault::SingularAngles { body, angles });
+    assert_eq!(
+        fault,
+        Fault::Reading(ReadingFault::SingularAngles { body, angles })
+    );
     assert!(view.bryant_angle_rates(h.straight).is_ok());
     assert!(view.roll_pitch_yaw_rates(h.upright).is_err());
     Words::set_angular_velocity(&mut state, h.rpy, Vector3::new(f64::NAN, 0.0, 0.0));
     let view = words.view(0.0, &state)?;
     let fault = view.roll_pitch_yaw_rates(h.rpy).expect_err("not finite");
-    assert_eq!(fault, Fault::StateNotFinite);
+    assert_eq!(fault, Fault::Step(StepFault::StateNotFinite));
     Ok(())
 }
 

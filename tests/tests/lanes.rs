@@ -5,6 +5,7 @@
 
 use core::array::from_fn;
 
+use holonom::error::{StartFault, StepFault};
 use holonom::lanes::{Ensemble, LaneEquations, Lanes};
 use holonom::mechanism::{Absolute, Coordinates, Relative, Terms};
 use holonom::prelude::*;
@@ -233,7 +234,7 @@ fn a_lane_at_a_singular_start_stops_and_the_others_go_on() {
             stopped,
             Some(SimulationError {
                 time: 0.25,
-                fault: Fault::Singular { .. },
+                fault: Fault::Step(StepFault::Singular { .. }),
                 ..
             })
         )
@@ -311,7 +312,10 @@ fn settings_are_refused_and_starts_stop_their_lane() {
     let mut arms = arms::<4>();
     let mut ensemble =
         Ensemble::<Problem<_, _>, _, 4>::new(&arms, StandardLagrange, Rk4).expect("sound");
-    assert!(matches!(ensemble.step(-1.0), Err(Fault::Setting { .. })));
+    assert!(matches!(
+        ensemble.step(-1.0),
+        Err(Fault::Start(StartFault::Setting { .. }))
+    ));
     let mut starts = thrown::<f64, 4>(&arms);
     let handle = Arm::HANDLES.arm;
     Arm::set_velocity(&mut starts[2], handle, [f64::NAN; 3].into());

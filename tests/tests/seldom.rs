@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+use holonom::error::StepFault;
 use holonom::prelude::*;
 use holonom::run::Reporting;
 
@@ -79,7 +80,7 @@ fn a_fault_comes_with_the_last_state() {
         let simulation = mechanism.simulation(StandardLagrange, method).unmonitored();
         let failed = simulation.run(0.0..=100.0, reporting, |_| {});
         let error = failed.expect_err("the budget is too small");
-        assert!(matches!(error.fault, Fault::Budget { .. }));
+        assert!(matches!(error.fault, Fault::Step(StepFault::Budget { .. })));
         (error.time, error.state)
     };
     let seldom = last(every(100.0));

@@ -5,7 +5,7 @@ use crate::constraints::extent::resolution;
 use crate::constraints::row_units::{RowUnits, characteristic_length};
 use crate::constraints::rows::Rows;
 use crate::constraints::side::check_sides;
-use crate::error::{Fault, Quantity};
+use crate::error::{Fault, Quantity, StartFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::Block;
@@ -24,11 +24,13 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
     is_final: bool,
 ) -> Result<(), Fault> {
     check_sides::<S, M>(constants, state)?;
-    let fault = |row: usize, quantity: Quantity, violation: S| Fault::InconsistentStart {
-        joint: M::REPORT.joint_of(row).unwrap_or_default(),
-        quantity,
-        violation: violation.to_f64(),
-        is_final,
+    let fault = |row: usize, quantity: Quantity, violation: S| {
+        Fault::Start(StartFault::Inconsistent {
+            joint: M::REPORT.joint_of(row).unwrap_or_default(),
+            quantity,
+            violation: violation.to_f64(),
+            is_final,
+        })
     };
     let rows = RowUnits::<S, M>::of(&Rows::at(constants, time, state));
     let length = characteristic_length::<S, M>(constants, state);

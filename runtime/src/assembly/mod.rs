@@ -28,7 +28,7 @@ use crate::constraints::apart::apart;
 use crate::constraints::projection::{Correction, Moved, Projection};
 use crate::constraints::row_units::characteristic_length;
 use crate::constraints::side::{check_sides, righted};
-use crate::error::Fault;
+use crate::error::{AssemblyFault, Fault};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::{check_state, with_unit_orientations};
@@ -138,7 +138,9 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
         }
         (Err(fault), _) if set.is_clean() && set.is_part() => Err(fault),
         // Of two that fail, the one that names a joint says more.
-        (Err(Fault::WayEnds { joint: None, .. }), Err(fault)) => Err(fault),
+        (Err(Fault::Assembly(AssemblyFault::WayEnds { joint: None, .. })), Err(fault)) => {
+            Err(fault)
+        }
         (Err(fault), Err(_)) => Err(fault),
         (Err(_), Ok(correction)) => {
             check_sides::<S, M>(constants, &direct)?;

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use crate::assembly::free_motion::FREE;
 use crate::assembly::subtree::{Subtree, Twist, orientation_of};
 use crate::constraints::extent::resolution;
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::math::quaternion::{conjugate, normalised, product};
 use crate::math::scalar::Real;
 use crate::math::vec3::square;
@@ -104,7 +104,7 @@ impl<S: Real, M: Mechanism> Subtree<'_, S, M> {
         if self.state.is_finite() {
             Ok(self.state)
         } else {
-            Err(Fault::StateNotFinite)
+            Err(Fault::Step(StepFault::StateNotFinite))
         }
     }
 

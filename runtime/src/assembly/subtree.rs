@@ -1,7 +1,7 @@
 //! What hangs on a joint in the spanning tree. It moves with the joint as one body, and so do its
 //! velocities, as seen from what carries it.
 
-use crate::error::Fault;
+use crate::error::{AssemblyFault, Fault};
 use crate::math::quaternion::{from_rotation_vector, normalised, product, rotate, rotate_back};
 use crate::math::scalar::Real;
 use crate::math::vec3::{cross, minus, read, write};
@@ -75,9 +75,9 @@ impl<'a, S: Real, M: Mechanism> Subtree<'a, S, M> {
     }
 
     pub(super) fn holds(&self) -> Fault {
-        Fault::NotFree {
+        Fault::Assembly(AssemblyFault::NotFree {
             joint: self.info.name,
-        }
+        })
     }
 
     /// The body that carries the other one; `None` for the ground.
@@ -275,8 +275,8 @@ fn closes<M: Mechanism>(joint: usize) -> Fault {
     let carrier = |body: &Option<usize>| M::REPORT.carriers.get((*body)?)?.joint;
     let other = bodies.iter().rev().find_map(carrier);
     let other = other.and_then(|joint| M::REPORT.joints.get(joint));
-    Fault::CarriesNothing {
+    Fault::Assembly(AssemblyFault::CarriesNothing {
         joint: info.map_or("", |info| info.name),
         instead: other.map(|info| info.name),
-    }
+    })
 }

@@ -11,7 +11,7 @@ use crate::constraints::frames::{axes_of, carrier_of, centre_of, hanging_point};
 use crate::constraints::newton::compliant_by_heaviest;
 use crate::constraints::retract::displaced;
 use crate::constraints::rows::Rows;
-use crate::error::Fault;
+use crate::error::{AssemblyFault, Fault};
 use crate::math::quaternion::{rotate, rotate_back};
 use crate::math::scalar::Real;
 use crate::math::vec3::{cross, minus, over, read, write};
@@ -237,10 +237,10 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
         let carrier = set.and_then(|body| M::REPORT.carriers.get(body));
         let joint = joint.or_else(|| carrier.and_then(|carrier| carrier.joint));
         let info = joint.and_then(|joint| M::REPORT.joints.get(joint));
-        Fault::WayEnds {
+        Fault::Assembly(AssemblyFault::WayEnds {
             joint: info.map(|info| info.name),
             share: share.to_f64(),
-        }
+        })
     }
 
     /// The state at a later share of the way, and how far it led; `None` where the step is too

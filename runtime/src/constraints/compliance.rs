@@ -1,7 +1,7 @@
 //! The compliance of every row, from the factor of a penalty.
 
 use crate::constraints::rows::Rows;
-use crate::error::Fault;
+use crate::error::{Fault, StartFault};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::{Mechanism, Stabilisation, Terms};
 use crate::state::vector::Array;
@@ -14,8 +14,8 @@ pub(crate) const RESOLVED: f64 = 64.0;
 /// configuration, with `radian` metres for a radian.
 ///
 /// # Errors
-/// [`Fault::PenaltyFactor`] where equations are kept that depend on others and the compliance is
-/// lost in round-off.
+/// [`StartFault::PenaltyFactor`] where equations are kept that depend on others and the compliance
+/// is lost in round-off.
 pub(crate) fn compliances<S: Real, M: Mechanism, T: Terms>(
     constants: &M::Constants<S>,
     stabilisation: &Stabilisation<S>,
@@ -41,10 +41,12 @@ pub(crate) fn compliances<S: Real, M: Mechanism, T: Terms>(
     let alpha = stabilisation.compliance.reciprocal();
     let depends = M::REPORT.keeps_redundant();
     match largest {
-        Some(largest) if depends && alpha > largest => Err(Fault::PenaltyFactor {
-            alpha: alpha.to_f64(),
-            largest: largest.to_f64(),
-        }),
+        Some(largest) if depends && alpha > largest => {
+            Err(Fault::Start(StartFault::PenaltyFactor {
+                alpha: alpha.to_f64(),
+                largest: largest.to_f64(),
+            }))
+        }
         _ => Ok(compliances),
     }
 }

@@ -2,8 +2,9 @@
 
 use crate::constraints::newton::{Depth, Iterate};
 use crate::constraints::self_stress::{passing, self_stressed};
-use crate::error::Fault;
 use crate::error::setting::positive;
+use crate::error::step::counted;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::math::vec3::square;
 use crate::mechanism::kernels::Mechanism;
@@ -116,10 +117,10 @@ impl<S: Real> Projection<S> {
     /// Corrects positions, then velocities; Euler parameters come out at length 1.
     ///
     /// # Errors
-    /// [`Fault::NotConverged`] with the `|Phi|` or `|Phi'|` left that is largest in sizes of its
-    /// row and its joint, [`Fault::StateNotFinite`], [`Fault::ZeroOrientation`], or
-    /// [`Fault::Setting`] for a tolerance that is not finite and positive; the state is then as
-    /// before.
+    /// [`StepFault::NotConverged`] with the `|Phi|` or `|Phi'|` left that is largest in sizes of
+    /// its row and its joint, [`StepFault::StateNotFinite`], [`StepFault::ZeroOrientation`], or
+    /// [`StartFault::Setting`](crate::error::StartFault::Setting) for a tolerance that is not
+    /// finite and positive; the state is then as before.
     pub fn correct<M: Mechanism>(
         &self,
         constants: &M::Constants<S>,
@@ -234,12 +235,12 @@ impl<S: Real> Projection<S> {
     fn fault<M: Mechanism>(&self, last: &Iterate<S, M>) -> Fault {
         let (row, rest) = last.sizes.worst(&last.violation, self.tolerance);
         let residual = last.violation.as_slice().get(row);
-        Fault::NotConverged {
-            iterations: last.iterations,
+        Fault::Step(StepFault::NotConverged {
+            iterations: counted(last.iterations),
             residual: residual.map_or(rest, |phi| phi.abs()).to_f64(),
             joint: M::REPORT.joint_of(row),
             alpha: None,
-        }
+        })
     }
 }
 

@@ -4,7 +4,7 @@ use crate::constraints::extent::extent;
 use crate::constraints::newton::compliant;
 use crate::constraints::rows::Rows;
 use crate::error::setting::positive;
-use crate::error::{Fault, NotFinite};
+use crate::error::{Fault, NotFinite, StartFault, StepFault};
 use crate::math::scalar::Real;
 use crate::math::vec3::norm;
 use crate::math::vec3::read;
@@ -79,8 +79,9 @@ impl<S: Real> Scales<S> {
     ///
     /// # Errors
     /// [`Fault::Parameter`]; a described state, forces or drivers that are not finite
-    /// ([`Fault::StateNotFinite`], [`Fault::ZeroOrientation`], [`Fault::RatesNotFinite`]);
-    /// [`Fault::Setting`] for a scale that the number type does not hold.
+    /// ([`StepFault::StateNotFinite`], [`StepFault::ZeroOrientation`],
+    /// [`StepFault::RatesNotFinite`]); [`StartFault::Setting`] for a scale that the number type
+    /// does not hold.
     pub fn of<M: Mechanism>(mechanism: &M) -> Result<Self, Fault> {
         let constants = constants(mechanism)?;
         let state = M::initial_state(&constants);
@@ -130,7 +131,7 @@ fn squarable<S: Real>(name: &'static str, value: S, root: S) -> Result<S, Fault>
         Ok(value)
     } else {
         let value = value.to_f64();
-        Err(Fault::Setting { name, value })
+        Err(Fault::Start(StartFault::Setting { name, value }))
     }
 }
 
@@ -202,7 +203,7 @@ fn rate<S: Real, M: Mechanism>(
         Ok(rate)
     } else {
         let origin = NotFinite::Unknown;
-        Err(Fault::RatesNotFinite { origin })
+        Err(Fault::Step(StepFault::RatesNotFinite { origin }))
     }
 }
 

@@ -1,7 +1,7 @@
 //! On which side of its equations a joint is.
 
 use crate::constraints::frames::{axes_of, carrier_of, point_of};
-use crate::error::Fault;
+use crate::error::AssemblyFault;
 use crate::math::quaternion::{conjugate, from_rotation_vector, normalised, product, rotate};
 use crate::math::scalar::Real;
 use crate::math::vec3::norm;
@@ -14,10 +14,10 @@ use crate::state::vector::{Array, StateParts};
 pub(crate) fn check_sides<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     state: &M::State<S>,
-) -> Result<(), Fault> {
+) -> Result<(), AssemblyFault> {
     match wrong::<S, M>(constants, state, 0) {
         None => Ok(()),
-        Some(joint) => Err(Fault::WrongSide {
+        Some(joint) => Err(AssemblyFault::WrongSide {
             joint: M::REPORT.joints.get(joint).map_or("", |info| info.name),
         }),
     }

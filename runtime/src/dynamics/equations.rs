@@ -9,7 +9,7 @@ use core::fmt::Debug;
 
 use super::evaluate::Evaluate;
 use super::{Dynamics, Iterations, Solvable};
-use crate::error::Fault;
+use crate::error::{Fault, ParameterError};
 use crate::formulation::Formulation;
 use crate::integrate::{OneStep as _, Rk4, System as _};
 use crate::math::scalar::Real;
@@ -71,7 +71,7 @@ pub(crate) trait Equations<S: Real, M: Mechanism>: Evaluate<S, M> {
     ///
     /// # Errors
     /// Those of that function.
-    fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault>;
+    fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), ParameterError>;
 
     /// See [`Dynamics::hold`].
     fn hold(&mut self, switch: &Switch, side: S);
@@ -189,7 +189,7 @@ where
         Self::renew_limits(self)
     }
 
-    fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault> {
+    fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), ParameterError> {
         Self::set_inputs(self, inputs)
     }
 

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::{Dynamics, Solvable};
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::formulation::{Formulation, Saddle, Solution};
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, Loads};
@@ -69,7 +69,7 @@ where
         if Self::IN_PARTS {
             match self.in_parts(time, state, rates, multipliers) {
                 Ok(parts) => (*pivot, iterations) = (parts.pivot, parts.iterations),
-                Err(Fault::StateNotFinite) => return Err(self.fault(time, state)),
+                Err(Fault::Step(StepFault::StateNotFinite)) => return Err(self.fault(time, state)),
                 Err(fault) => return Err(fault),
             }
         } else {
@@ -158,7 +158,7 @@ where
     /// The evaluation from its parts: applied forces enter, and a formulation may iterate.
     ///
     /// # Errors
-    /// [`Fault::StateNotFinite`] where a pivot vanishes or something is not finite:
+    /// [`StepFault::StateNotFinite`] where a pivot vanishes or something is not finite:
     /// [`Evaluator::fault`] says what, once this has given its stack back.
     pub(super) fn in_parts(
         &self,
@@ -204,7 +204,7 @@ where
             then(&self.setting(saddle, rates), &solution)
         });
         match result {
-            Err(Fault::StateNotFinite) => Err(self.fault(time, state)),
+            Err(Fault::Step(StepFault::StateNotFinite)) => Err(self.fault(time, state)),
             result => result,
         }
     }
@@ -371,7 +371,7 @@ fn begun<S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>>(
     first: &First<'_, S, M, C>,
 ) -> Result<Solution<S, M, C>, Fault> {
     if vanishes::<S, F::Terms>(first.pivot.relative) {
-        return Err(Fault::StateNotFinite);
+        return Err(Fault::Step(StepFault::StateNotFinite));
     }
     Ok(Solution {
         accelerations: *first.accelerations,
@@ -384,7 +384,7 @@ fn begun<S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>>(
 /// Why rates are not finite is found once the evaluation has given its stack back.
 fn explained_later(fault: Fault) -> Fault {
     match fault {
-        Fault::RatesNotFinite { .. } => Fault::StateNotFinite,
+        Fault::Step(StepFault::RatesNotFinite { .. }) => Fault::Step(StepFault::StateNotFinite),
         fault => fault,
     }
 }

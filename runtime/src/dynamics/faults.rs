@@ -3,7 +3,7 @@
 use super::{Dynamics, Evaluator, Solvable, vanishes};
 use crate::constraints::extent::farthest;
 use crate::dynamics::origin::{before_accelerations, differing, state_of};
-use crate::error::{Fault, NotFinite};
+use crate::error::{Fault, NotFinite, StepFault};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, Loads};
@@ -32,21 +32,21 @@ where
         }: StateAt<S, M>,
     ) -> Fault {
         match fault {
-            Fault::StepSizeUnderflow { step, is_least, .. } => {
+            Fault::Step(StepFault::SizeUnderflow { step, is_least, .. }) => {
                 let resolution = farthest(M::REPORT.bodies, state.coordinates().as_slice()).ulp();
-                Fault::StepSizeUnderflow {
+                Fault::Step(StepFault::SizeUnderflow {
                     step,
                     is_least,
                     joint: self.nearly_singular(time, &state),
                     resolution: absolute
                         .is_some_and(|absolute| resolution > absolute)
                         .then(|| resolution.to_f64()),
-                }
+                })
             }
-            Fault::Budget { evaluations, .. } => Fault::Budget {
+            Fault::Step(StepFault::Budget { evaluations, .. }) => Fault::Step(StepFault::Budget {
                 evaluations,
                 joint: self.nearly_singular(time, &state),
-            },
+            }),
             _ => fault,
         }
     }
@@ -55,7 +55,7 @@ where
     /// that a sum over times does not stand still.
     ///
     /// # Errors
-    /// [`Fault::TwoAnswers`] where its forces differ in any digit.
+    /// [`StepFault::TwoAnswers`] where its forces differ in any digit.
     #[inline]
     pub(crate) fn ask_twice(
         &self,
@@ -71,10 +71,10 @@ where
         let other = self.applied(time, &read);
         match differing(&M::REPORT, [one.as_slice(), other.as_slice()]) {
             None => Ok(()),
-            Some(body) => Err(Fault::TwoAnswers {
+            Some(body) => Err(Fault::Step(StepFault::TwoAnswers {
                 body,
                 time: time.to_f64(),
-            }),
+            })),
         }
     }
 
@@ -106,7 +106,7 @@ where
     #[inline(never)]
     pub(super) fn fault(&self, time: S, state: &C::State<S>) -> Fault {
         if let Err(fault) = C::check(state) {
-            return fault;
+            return fault.into();
         }
         let mut rates = C::State::zeros();
         let pivot = self.solved_again(time, state, &mut rates);
@@ -115,7 +115,7 @@ where
         }
         let bodies = &C::bodies(&self.equations.constants, state);
         if let Err(fault) = check_state::<S, M>(bodies) {
-            return fault;
+            return fault.into();
         }
         let read = &with_unit_orientations::<S, M>(bodies);
         let applied = A::PRESENT.then(|| {
@@ -133,12 +133,12 @@ where
             let place = accelerations.position(|rate| !rate.is_finite())?;
             C::body_of_velocity(place).map(NotFinite::Body)
         };
-        Fault::RatesNotFinite {
+        Fault::Step(StepFault::RatesNotFinite {
             origin: origin
                 .or_else(of_body)
                 .or_else(|| state_of::<S, M>(&self.absolute.constants, time, read))
                 .unwrap_or(NotFinite::Unknown),
-        }
+        })
     }
 
     /// Pivot and accelerations as an evaluation computes them, by the kernels that it uses, so that
@@ -166,11 +166,11 @@ where
 #[cold]
 pub(crate) fn singular<S: Real, M: Mechanism>(pivot: &Pivot<S>) -> Fault {
     let joint = pivot.joint.to_f64() as usize;
-    Fault::Singular {
+    Fault::Step(StepFault::Singular {
         joint,
         name: field::<M>(joint),
         relative_pivot: pivot.relative.to_f64(),
-    }
+    })
 }
 
 /// The field of a joint.

@@ -1,7 +1,7 @@
 //! Efforts, impulses and modes of interactions.
 
 use super::{Dynamics, Posed, Solvable};
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::formulation::add;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
@@ -50,7 +50,7 @@ where
     /// Takes the limits of the description by the parameters that it has now.
     ///
     /// # Errors
-    /// [`Fault::InteractionSetting`].
+    /// [`StartFault::InteractionSetting`](crate::error::StartFault::InteractionSetting).
     pub(crate) fn renew_limits(&mut self) -> Result<(), Fault> {
         if P::Forces::INTERACTS {
             let parameters = *self.parameters();
@@ -84,7 +84,7 @@ where
         let evaluator = self.evaluator();
         match evaluator.parts(time, state, &mut rates, &mut multipliers, Some(show)) {
             Ok(_) => Ok(()),
-            Err(Fault::StateNotFinite) => Err(evaluator.fault(time, state)),
+            Err(Fault::Step(StepFault::StateNotFinite)) => Err(evaluator.fault(time, state)),
             Err(fault) => Err(fault),
         }
     }

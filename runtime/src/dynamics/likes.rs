@@ -9,7 +9,7 @@ use crate::constraints::extent::extent;
 use crate::constraints::projection::Projection;
 use crate::constraints::retract::displaced;
 use crate::dynamics::vanishes;
-use crate::error::{Fault, ParameterError, ParameterFault};
+use crate::error::{Fault, ParameterError, ParameterFault, StepFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::norm;
 use crate::mechanism::kernels::{Mechanism, Plain, Stabilisation};
@@ -218,8 +218,8 @@ fn put_together<M: Mechanism>(
 /// Why, with the joint that stays open, or whose equations are not finite.
 fn not_assembled<M: Mechanism>(constants: &M::Constants<f64>, fault: Fault) -> ParameterFault {
     let named = match fault {
-        Fault::NotConverged { joint, .. } => joint,
-        Fault::Singular { name, .. } => Some(name),
+        Fault::Step(StepFault::NotConverged { joint, .. }) => joint,
+        Fault::Step(StepFault::Singular { name, .. }) => Some(name),
         _ => None,
     };
     let joint = named.or_else(|| {

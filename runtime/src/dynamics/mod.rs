@@ -46,7 +46,7 @@ pub use problem::{
 
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::compliance::compliances;
-use crate::error::{Fault, ParameterError};
+use crate::error::{Fault, ParameterError, StepFault};
 use crate::formulation::{Formulation, inconsistency};
 use crate::math::scalar::Real;
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
@@ -324,7 +324,7 @@ where
     /// # Errors
     /// An input that is not finite; the former ones then stay.
     #[inline]
-    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault> {
+    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), ParameterError> {
         M::put_inputs(inputs, &mut self.parameters)?;
         M::take_inputs(&self.parameters, &mut self.absolute.constants);
         C::take_inputs(&self.parameters, &mut self.own);
@@ -390,10 +390,11 @@ where
     /// The state in which bodies stand and move so.
     ///
     /// # Errors
-    /// A state that is not finite. In relative coordinates [`Fault::InconsistentStart`] where the
-    /// bodies do not stand as the joints let them, or move so that one would open within a second,
-    /// by more than four digits; smaller violations of the joints of the tree are taken away. There
-    /// [`Fault::StateNotFinite`] where the two axes of a joint are in line.
+    /// A state that is not finite. In relative coordinates
+    /// [`StartFault::Inconsistent`](crate::error::StartFault::Inconsistent) where the bodies do not
+    /// stand as the joints let them, or move so that one would open within a second, by more than
+    /// four digits; smaller violations of the joints of the tree are taken away. There
+    /// [`StepFault::StateNotFinite`] where the two axes of a joint are in line.
     pub fn state_of(&self, bodies: &M::State<S>) -> Result<C::State<S>, Fault> {
         let given = bodies;
         let mut bodies = *given;
@@ -408,7 +409,7 @@ where
         if state.is_finite() {
             Ok(state)
         } else {
-            Err(Fault::StateNotFinite)
+            Err(Fault::Step(StepFault::StateNotFinite))
         }
     }
 
@@ -456,9 +457,9 @@ where
     /// Rates of the state and multipliers, and how often the system was solved.
     ///
     /// # Errors
-    /// [`Fault::Singular`] where constraints depend on each other and the formulation has no
-    /// compliance, [`Fault::NotConverged`] of the augmented Lagrangian, a state or rates that are
-    /// not finite.
+    /// [`StepFault::Singular`] where constraints depend on each other and the formulation has no
+    /// compliance, [`StepFault::NotConverged`] of the augmented Lagrangian, a state or rates that
+    /// are not finite.
     #[inline(always)]
     pub fn evaluate(
         &self,

@@ -4,7 +4,8 @@ use super::trial::Trial;
 use super::{Dynamics, Problem, singular, vanishes};
 use crate::constraints::extent::extent;
 use crate::constraints::extent::farthest;
-use crate::error::{Fault, LeavesOut};
+use crate::error::step::counted;
+use crate::error::{Fault, LeavesOut, StartFault, StepFault};
 use crate::formulation::{Formulation, add};
 use crate::integrate::{AlphaEnd, AlphaStep, RigidConstraints};
 use crate::math::scalar::Real;
@@ -52,7 +53,7 @@ where
         asked: AlphaStep<'_, S, M::State<S>>,
     ) -> Result<AlphaEnd<M::State<S>>, Fault> {
         if A::INTERACTS {
-            return Err(Fault::NoInteractions);
+            return Err(Fault::Start(StartFault::NoInteractions));
         }
         self.solved_on_constraints(&asked)
     }
@@ -69,8 +70,8 @@ where
     /// See [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     ///
     /// # Errors
-    /// [`Fault::Singular`], [`Fault::StepNotSolved`] where the iteration does not converge, what is
-    /// not finite.
+    /// [`StepFault::Singular`], [`StepFault::NotSolved`] where the iteration does not converge,
+    /// what is not finite.
     #[inline(never)]
     pub(super) fn solved_on_constraints(
         &mut self,
@@ -125,11 +126,11 @@ where
             M::factor::<S, F::Terms>(constants, &self.absolute.coefficients, start, asked.state);
         let is_near = pivot.relative < S::constant(NEARLY_VANISHED);
         let joint = M::REPORT.joints.get(pivot.joint.to_f64() as usize);
-        Fault::StepNotSolved {
+        Fault::Step(StepFault::NotSolved {
             step: asked.step.to_f64(),
-            iterations,
+            iterations: counted(iterations),
             joint: joint.filter(|_| is_near).map(|info| info.name),
-        }
+        })
     }
 
     /// One iteration.

@@ -4,7 +4,7 @@
 use super::evaluate::Parts;
 use super::{Dynamics, Evaluator, Solvable, VANISHED, vanishes};
 use crate::constraints::rows::Rows;
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::formulation::{Formulation, StraightOn};
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::{Coordinates, Equations};
@@ -187,7 +187,7 @@ where
     ) -> Result<(), Fault> {
         let pivot = match &parts {
             Ok(parts) => parts.pivot.relative,
-            Err(Fault::StateNotFinite) => {
+            Err(Fault::Step(StepFault::StateNotFinite)) => {
                 let pivot = self.evaluator().solved_again(time, state, rates);
                 pivot.relative
             }

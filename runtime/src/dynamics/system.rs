@@ -2,7 +2,7 @@
 
 use super::evaluate::Parts;
 use super::{Dynamics, Evaluator, Solvable, vanishes};
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::formulation::Formulation;
 use crate::integrate::{SecondOrder, System, by_differences};
 use crate::math::scalar::Real;
@@ -22,7 +22,9 @@ where
         let mut rates = C::State::zeros();
         match self.stage(time, state, &mut rates) {
             Ok(()) if rates.is_finite() => Ok(rates),
-            Ok(()) | Err(Fault::StateNotFinite) => Err(self.evaluator().fault(time, state)),
+            Ok(()) | Err(Fault::Step(StepFault::StateNotFinite)) => {
+                Err(self.evaluator().fault(time, state))
+            }
             Err(fault) => Err(fault),
         }
     }
@@ -59,7 +61,7 @@ where
                 *rates = straight_on;
             } else if vanishes::<S, F::Terms>(pivot.relative) {
                 // Why is not asked here, for the same reason.
-                return Err(Fault::StateNotFinite);
+                return Err(Fault::Step(StepFault::StateNotFinite));
             }
         }
         self.look(pivot.relative);

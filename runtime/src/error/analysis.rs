@@ -1,11 +1,13 @@
-//! Why coordinates cannot be chosen, or an analysis in them cannot be done.
+//! Why coordinates cannot be chosen, or an analysis cannot be done.
 
 use core::fmt;
 
+use crate::error::quantity::{Open, Quantity};
 use crate::error::readable::Measured;
 
 /// Why coordinates cannot be chosen ([`crate::independent`]), or have no such equations,
-/// equilibrium or branch of equilibria.
+/// equilibrium or branch of equilibria; why a [`KinematicAnalysis`](crate::KinematicAnalysis) does
+/// not go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum AnalysisFault {
@@ -79,6 +81,47 @@ pub enum AnalysisFault {
         /// The last value at which there is one.
         value: f64,
     },
+    /// A state of joint coordinates does not satisfy the constraints: a loop is open, or its joints
+    /// move against each other.
+    NotAssembled {
+        /// The joint's field.
+        joint: &'static str,
+        /// What is violated.
+        quantity: Quantity,
+        /// By how much, in the unit of the quantity.
+        violation: f64,
+    },
+    /// A law switches in a state, and its sides differ there: it has no derivative, and where it
+    /// jumps an equilibrium would be one of a range.
+    OnSwitch {
+        /// The field of the force or state.
+        law: &'static str,
+        /// The expression whose sign decides.
+        expression: &'static str,
+    },
+    /// A kinematic analysis of a mechanism that its equations do not determine: there are fewer
+    /// than velocities.
+    NotDriven {
+        /// Velocities less equations.
+        degrees_of_freedom: isize,
+    },
+    /// A kinematic analysis came to a configuration where the equations, although enough, leave a
+    /// motion free.
+    MotionLeftFree {
+        /// The share of a trial motion's energy that stays free, from 0 to 1.
+        share: f64,
+    },
+    /// A kinematic analysis found no pose that goes on with the motion, however short its step: a
+    /// law that jumps, or a branch that ends.
+    Jump {
+        /// The body that the nearest pose would let jump most.
+        body: &'static str,
+        /// By how much (rad, or lengths of the mechanism).
+        size: f64,
+        /// The joint whose pivot has nearly vanished, where a singular configuration is the cause,
+        /// see [`crate::mechanism::Pivot`].
+        joint: Option<&'static str>,
+    },
 }
 
 impl fmt::Display for AnalysisFault {
@@ -87,27 +130,15 @@ impl fmt::Display for AnalysisFault {
             Self::ChosenCount {
                 chosen,
                 degrees_of_freedom,
-            } => {
-                let plural = if degrees_of_freedom == 1 { "" } else { "s" };
-                write!(
-                    f,
-                    "the mechanism has {degrees_of_freedom} degree{plural} of freedom: choose as many coordinates, not {chosen}"
-                )
-            }
+            } => write!(
+                f,
+                "the mechanism has {degrees_of_freedom} degree{} of freedom: choose as many coordinates, not {chosen}",
+                plural(degrees_of_freedom)
+            ),
             Self::ChosenTwice { joint } => {
                 write!(f, "the motion of joint `{joint}` was chosen twice")
             }
-            Self::SeveralMotions { joint, motions } => {
-                let plural = if motions == 1 { "" } else { "s" };
-                write!(
-                    f,
-                    "`{joint}` has {motions} motion{plural}: choose one of them by `Motion::of({joint}, 0)`"
-                )?;
-                match motions {
-                    0 | 1 => Ok(()),
-                    _ => write!(f, " to `Motion::of({joint}, {})`", motions - 1),
-                }
-            }
+            Self::SeveralMotions { joint, motions } => several_motions(f, joint, motions),
             Self::Carried { body, joint } => write!(
                 f,
                 "`{body}` does not move freely: joint `{joint}` carries it in the spanning tree, and its motion can be chosen"
@@ -143,8 +174,82 @@ impl fmt::Display for AnalysisFault {
                 "no equilibrium leads on from `{along} = {}`: the branch ends there, or bends more sharply than steps can follow",
                 Measured(value)
             ),
+            Self::NotAssembled {
+                joint,
+                quantity,
+                violation,
+            } => {
+                let finds = if quantity.is_rate() {
+                    "with_rates"
+                } else {
+                    "state_near"
+                };
+                let open = Open {
+                    joint,
+                    quantity,
+                    violation,
+                };
+                write!(
+                    f,
+                    "{open}: the state does not satisfy the constraints, `{finds}` finds one that does"
+                )
+            }
+            Self::OnSwitch { law, expression } => write!(
+                f,
+                "`{expression}` in the law of `{law}` is zero in this state, and the law is another one on each side: there is no derivative, and what sticks has \
+                 a range of equilibria; take a state beside it (a rate that is not zero), or a law by `smooth_step`"
+            ),
+            Self::NotDriven { degrees_of_freedom } => not_driven(f, degrees_of_freedom),
+            Self::MotionLeftFree { share } => write!(
+                f,
+                "the equations leave a motion free here ({} of a trial motion): they depend on each other, or a driver is missing",
+                Measured(share)
+            ),
+            Self::Jump { body, size, joint } => jump(f, body, size, joint),
         }
     }
 }
 
 impl core::error::Error for AnalysisFault {}
+
+fn plural(number: usize) -> &'static str {
+    if number == 1 { "" } else { "s" }
+}
+
+fn several_motions(f: &mut fmt::Formatter<'_>, joint: &str, motions: usize) -> fmt::Result {
+    write!(
+        f,
+        "`{joint}` has {motions} motion{}: choose one of them by `Motion::of({joint}, 0)`",
+        plural(motions)
+    )?;
+    match motions {
+        0 | 1 => Ok(()),
+        _ => write!(f, " to `Motion::of({joint}, {})`", motions - 1),
+    }
+}
+
+fn not_driven(f: &mut fmt::Formatter<'_>, degrees_of_freedom: isize) -> fmt::Result {
+    let (velocities, each) = match degrees_of_freedom {
+        1 => ("velocity", "it"),
+        _ => ("velocities", "each"),
+    };
+    write!(
+        f,
+        "the mechanism has {degrees_of_freedom} more {velocities} than equations; a kinematic analysis needs a driver for {each}"
+    )
+}
+
+fn jump(f: &mut fmt::Formatter<'_>, body: &str, size: f64, joint: Option<&str>) -> fmt::Result {
+    write!(
+        f,
+        "no pose goes on with the motion: body `{body}` would jump by {} rad, or so many lengths of the mechanism; ",
+        Measured(size)
+    )?;
+    match joint {
+        Some(joint) => write!(
+            f,
+            "its branch ends in a singular configuration at joint `{joint}`"
+        ),
+        None => f.write_str("a law that jumps is the usual cause"),
+    }
+}

@@ -84,3 +84,5 @@ impl fmt::Display for CheckpointFault {
         }
     }
 }
+
+impl core::error::Error for CheckpointFault {}

@@ -1,25 +1,45 @@
 //! What can go wrong, and how it is said.
 //!
-//! Texts of faults are in `message.rs`, those of an analysis in `analysis.rs`. `Debug` of an error
-//! says the same as `Display`, because a `main` that returns an error prints `Debug`.
+//! A [`Fault`] has one variant for each operation that can fail. It holds a family: an enum of its
+//! own, in a file of its own together with what it says.
+//!
+//! | variant | family | of |
+//! |---|---|---|
+//! | `Start` | [`StartFault`] | settings, intervals and starts; what a run would leave out |
+//! | `Step` | [`StepFault`] | evaluations, corrections, steps and events |
+//! | `Mode` | [`ModeFault`] | interactions, and laws that switch |
+//! | `Assembly` | [`AssemblyFault`] | joints that are set, and configurations |
+//! | `Reading` | [`ReadingFault`] | readings |
+//! | `Analysis` | [`AnalysisFault`] | equations in chosen coordinates, and kinematic analyses |
+//! | `Checkpoint` | [`CheckpointFault`] | checkpoints |
+//! | `Parameter` | [`ParameterError`] | parameters of a mechanism |
 
 mod analysis;
+mod assembly;
 mod checkpoint;
-mod interactions;
-mod kinds;
+mod fault;
 mod left_out;
-pub(crate) mod message;
+mod mode;
 mod parameter;
+mod quantity;
 pub(crate) mod readable;
+mod reading;
 mod run;
 #[cfg(feature = "serde")]
 pub(crate) mod sentence;
 pub(crate) mod setting;
-mod switches;
+mod start;
+pub(crate) mod step;
 
 pub use analysis::AnalysisFault;
+pub use assembly::AssemblyFault;
 pub use checkpoint::CheckpointFault;
-pub use kinds::{AngleSet, Fault, NotFinite, Quantity};
+pub use fault::Fault;
 pub use left_out::{LeavesOut, Unheeding};
+pub use mode::ModeFault;
 pub use parameter::{ParameterError, ParameterFault};
+pub use quantity::Quantity;
+pub use reading::{AngleSet, ReadingFault};
 pub use run::{RunError, SimulationError};
+pub use start::StartFault;
+pub use step::{NotFinite, StepFault};

@@ -6,7 +6,8 @@ use crate::math::spline::SplineFault;
 
 /// A number of the description that the macro could not see is not acceptable.
 ///
-/// `Debug` prints the sentence of `Display`, for a `main` that returns the error.
+/// `{:?}` is the sentence of `Display`, for a `main` that returns the error. `{:#?}` has the
+/// fields.
 #[derive(Clone, Copy, PartialEq)]
 pub struct ParameterError {
     /// The field of the mechanism.
@@ -93,6 +94,13 @@ impl fmt::Display for ParameterError {
 
 impl fmt::Debug for ParameterError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
+        if !f.alternate() {
+            return fmt::Display::fmt(self, f);
+        }
+        f.debug_struct("ParameterError")
+            .field("field", &self.field)
+            .field("attribute", &self.attribute)
+            .field("fault", &self.fault)
+            .finish()
     }
 }

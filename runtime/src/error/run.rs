@@ -2,13 +2,13 @@
 
 use core::fmt;
 
-use crate::error::kinds::Fault;
+use crate::error::fault::Fault;
 use crate::error::readable::Given;
 
 /// A run or a step that could not go on: when, why, and the last good state.
 ///
-/// `Debug` prints the sentence of `Display`, for a `main` that returns the error; the state is not
-/// part of it.
+/// `{:?}` is the sentence of `Display`, for a `main` that returns the error. `{:#?}` has the time
+/// and the fields of the fault. The state is part of neither.
 #[derive(Clone, Copy, PartialEq)]
 pub struct SimulationError<X> {
     /// The time of the last good state (s).
@@ -19,16 +19,13 @@ pub struct SimulationError<X> {
     pub state: X,
 }
 
-impl<X> core::error::Error for SimulationError<X> {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        Some(&self.fault)
-    }
-}
+/// No source: the sentence is that of the fault, and a chain of sources would say it twice.
+impl<X> core::error::Error for SimulationError<X> {}
 
 /// Why a run ended whose observer may fail, see [`Simulation::run`](crate::Simulation::run).
 ///
-/// `Debug` prints the sentence of `Display`, for a `main` that returns the error. Any `E` that can
-/// be displayed will do, `Box<dyn Error>` among them.
+/// `{:?}` is the sentence of `Display`, for a `main` that returns the error. `{:#?}` has the fields
+/// of the fault. Any `E` that can be displayed will do, `Box<dyn Error>` among them.
 #[derive(Clone, Copy, PartialEq)]
 pub enum RunError<X, E> {
     /// The run could not go on.
@@ -43,15 +40,8 @@ impl<X, E> From<SimulationError<X>> for RunError<X, E> {
     }
 }
 
-/// The source is the fault of the run. An observer's error is shown itself.
-impl<X, E: fmt::Display> core::error::Error for RunError<X, E> {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Simulation(error) => Some(&error.fault),
-            Self::Observer(_) => None,
-        }
-    }
-}
+/// No source: the sentence is that of the run, or of the observer.
+impl<X, E: fmt::Display> core::error::Error for RunError<X, E> {}
 
 impl<X> fmt::Display for SimulationError<X> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -61,7 +51,13 @@ impl<X> fmt::Display for SimulationError<X> {
 
 impl<X> fmt::Debug for SimulationError<X> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
+        if !f.alternate() {
+            return fmt::Display::fmt(self, f);
+        }
+        f.debug_struct("SimulationError")
+            .field("time", &self.time)
+            .field("fault", &self.fault)
+            .finish_non_exhaustive()
     }
 }
 
@@ -76,6 +72,11 @@ impl<X, E: fmt::Display> fmt::Display for RunError<X, E> {
 
 impl<X, E: fmt::Display> fmt::Debug for RunError<X, E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
+        match self {
+            Self::Simulation(error) if f.alternate() => {
+                f.debug_tuple("Simulation").field(error).finish()
+            }
+            _ => fmt::Display::fmt(self, f),
+        }
     }
 }

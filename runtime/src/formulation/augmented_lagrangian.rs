@@ -4,7 +4,8 @@ use super::{Formulation, Saddle, Solution, faster_decay, inconsistency, penalty}
 use crate::constraints::rows::Rows;
 use crate::constraints::self_stress::{passing, self_stressed};
 use crate::error::setting::positive;
-use crate::error::{Fault, NotFinite};
+use crate::error::step::counted;
+use crate::error::{Fault, NotFinite, StartFault, StepFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::square;
 use crate::mechanism::coordinates::{ByAllRows, Coordinates};
@@ -34,7 +35,7 @@ use crate::state::vector::Array;
 /// each such `s`, up to `max_iterations` more.
 /// [`Iterations::unconverged`](crate::dynamics::Iterations::unconverged) counts evaluations that
 /// end before their tolerance. Where the loads do not cancel, slow convergence is
-/// [`Fault::NotConverged`]: `alpha` is too small for the masses.
+/// [`StepFault::NotConverged`]: `alpha` is too small for the masses.
 ///
 /// In joint coordinates it iterates on the equations that remain, by the rates of their velocities.
 /// A change of the multipliers that loads the motions of the joints to a hundredth of what it loads
@@ -99,8 +100,8 @@ impl<S: Real> AugmentedLagrangian<S> {
     /// the penalty is left, see above.
     /// [`Dynamics::inconsistency`](crate::dynamics::Dynamics::inconsistency) says how much that is
     /// at a state. Where the last solution still changes the accelerations by more than a
-    /// hundredth, the evaluation is refused, [`Fault::NotConverged`]: `alpha` is too small for the
-    /// masses.
+    /// hundredth, the evaluation is refused, [`StepFault::NotConverged`]: `alpha` is too small for
+    /// the masses.
     #[must_use]
     pub fn exactly(self, solutions: usize) -> Self {
         Self {
@@ -133,10 +134,10 @@ impl<S: Real> Formulation<S> for AugmentedLagrangian<S> {
         if self.max_iterations < 2 {
             let name =
                 "solutions of the augmented Lagrangian beyond the first (max_iterations - 1)";
-            return Err(Fault::Setting {
+            return Err(Fault::Start(StartFault::Setting {
                 name,
                 value: self.max_iterations as f64 - 1.0,
-            });
+            }));
         }
         penalty::checked(self.radian)?;
         penalty::stabilisation(self.alpha, self.omega, self.mu)
@@ -216,7 +217,7 @@ impl<S: Real> AugmentedLagrangian<S> {
             }
             if !change.is_finite() {
                 let origin = NotFinite::Unknown;
-                return Err(Fault::RatesNotFinite { origin });
+                return Err(Fault::Step(StepFault::RatesNotFinite { origin }));
             }
         }
         Ok(Some(change))
@@ -299,8 +300,8 @@ impl<S: Real> AugmentedLagrangian<S> {
     /// `max_iterations` times.
     ///
     /// # Errors
-    /// [`Fault::NotConverged`] where what still changes is no state of self-stress that the motion
-    /// leaves.
+    /// [`StepFault::NotConverged`] where what still changes is no state of self-stress that the
+    /// motion leaves.
     pub(super) fn straight_on<M: Mechanism, C: Coordinates<M>>(
         &self,
         saddle: &Saddle<'_, S, M, C, Compliant>,
@@ -324,12 +325,12 @@ impl<S: Real> AugmentedLagrangian<S> {
 
     #[cold]
     fn not_converged(&self, iterations: usize, change: S, joint: Option<&'static str>) -> Fault {
-        Fault::NotConverged {
-            iterations,
+        Fault::Step(StepFault::NotConverged {
+            iterations: counted(iterations),
             residual: change.to_f64(),
             joint,
             alpha: Some(self.alpha.to_f64()),
-        }
+        })
     }
 
     /// Whether a change of the accelerations ends the iteration.
@@ -369,7 +370,7 @@ impl<S: Real> AugmentedLagrangian<S> {
             }
             if !size.is_finite() && !solution.unconverged {
                 let origin = NotFinite::Unknown;
-                return Err(Fault::RatesNotFinite { origin });
+                return Err(Fault::Step(StepFault::RatesNotFinite { origin }));
             }
             if least.is_none_or(|least| size < least) {
                 (best, least) = (next, Some(size));

@@ -3,7 +3,7 @@
 use super::{AugmentedLagrangian, Baumgarte, Penalty};
 use crate::constraints::compliance::RESOLVED;
 use crate::constraints::scales::Scales;
-use crate::error::Fault;
+use crate::error::{Fault, StartFault};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 
@@ -59,7 +59,7 @@ impl<S: Real> Penalty<S> {
     /// compliance is lost in round-off, `1 / (64 EPSILON s)`.
     ///
     /// # Errors
-    /// As [`Scales::of`]; [`Fault::PenaltyFactor`] where that is less than a hundred times the
+    /// As [`Scales::of`]; [`StartFault::PenaltyFactor`] where that is less than a hundred times the
     /// mass: ratios of masses for which the number type has no penalty.
     pub fn of<M: Mechanism>(mechanism: &M) -> Result<Self, Fault> {
         let scales = Scales::of(mechanism)?;
@@ -135,10 +135,10 @@ fn alpha<S: Real, M: Mechanism>(scales: &Scales<S>) -> Result<S, Fault> {
     let largest = scales.lightest.quotient(lost);
     let most = largest.quotient(S::constant(MARGIN));
     if most < S::constant(LEAST) * scales.mass {
-        return Err(Fault::PenaltyFactor {
+        return Err(Fault::Start(StartFault::PenaltyFactor {
             alpha: alpha.to_f64(),
             largest: largest.to_f64(),
-        });
+        }));
     }
     Ok(alpha.min(most))
 }

@@ -71,7 +71,8 @@ pub trait Formulation<S: Real>: Copy + Debug {
     /// The coefficients of the saddle system.
     ///
     /// # Errors
-    /// [`Fault::Setting`] for a coefficient that is not finite and positive.
+    /// [`StartFault::Setting`](crate::error::StartFault::Setting) for a coefficient that is not
+    /// finite and positive.
     fn stabilisation(&self) -> Result<Stabilisation<S>, Fault>;
 
     /// The rate (1/s) at which violations decay, the faster one of two: explicit steps must be
@@ -99,7 +100,8 @@ pub trait Formulation<S: Real>: Copy + Debug {
     /// as it is.
     ///
     /// # Errors
-    /// [`Fault::NotConverged`] for a formulation that iterates.
+    /// [`StepFault::NotConverged`](crate::error::StepFault::NotConverged) for a formulation that
+    /// iterates.
     #[inline(always)]
     fn refine<M: Mechanism, C: Coordinates<M>>(
         &self,

@@ -10,8 +10,9 @@ use crate::mechanism::kernels::{Compliant, Stabilisation};
 ///
 /// `alpha` holds up to `1 / (64 EPSILON s)`, with `s` the largest of what a row yields to a unit
 /// load, about one over the least mass: beyond it the compliance is lost in round-off. Where
-/// equations are kept that depend on others, a larger one is refused with [`Fault::PenaltyFactor`];
-/// elsewhere the constraints are then rigid.
+/// equations are kept that depend on others, a larger one is refused with
+/// [`StartFault::PenaltyFactor`](crate::error::StartFault::PenaltyFactor); elsewhere the
+/// constraints are then rigid.
 ///
 /// Every constraint is a spring, a damper and a mass on the violation. Solvable where constraints
 /// are redundant or the configuration is singular; the motion has a bias of the order `1 / alpha`.
@@ -79,10 +80,10 @@ impl<S: Real> Formulation<S> for Penalty<S> {
 
 /// Refuses a length of a radian that is none.
 pub(super) fn checked<S: Real>(radian: Option<S>) -> Result<(), Fault> {
-    match radian {
-        Some(length) => positive("length of a radian of the penalty", length).map(drop),
-        None => Ok(()),
+    if let Some(length) = radian {
+        positive("length of a radian of the penalty", length)?;
     }
+    Ok(())
 }
 
 /// `2 omega mu`, `omega^2` and `1 / alpha`.

@@ -5,7 +5,8 @@ use nalgebra::{SMatrix, SVector};
 use super::elimination::Elimination;
 use super::partition::write_rates;
 use super::{Equations, IndependentCoordinates};
-use crate::error::{AnalysisFault, Fault};
+use crate::error::step::counted;
+use crate::error::{AnalysisFault, Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix};
@@ -128,12 +129,12 @@ pub(super) fn not_converged<S: Real, const N: usize>(
     let most = left
         .iter()
         .fold(S::zero(), |most: S, entry| most.max(entry.abs()));
-    Fault::NotConverged {
-        iterations,
+    Fault::Step(StepFault::NotConverged {
+        iterations: counted(iterations),
         residual: most.to_f64(),
         joint: None,
         alpha: None,
-    }
+    })
 }
 
 /// The longest of some ways, in radians or lengths of the mechanism.

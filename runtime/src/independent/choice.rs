@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::degrees_of_freedom;
-use crate::error::{AnalysisFault, Fault};
+use crate::error::{AnalysisFault, AssemblyFault, Fault};
 use crate::math::without_bounds::copied;
 use crate::mechanism::handle::{BodyHandle, JointHandle};
 use crate::mechanism::joint_kernels::{JointCoordinates, JointMotion};
@@ -168,10 +168,10 @@ fn carries_nothing<M: JointCoordinates>(index: usize, joint: &'static str) -> Fa
         .iter()
         .rev()
         .filter_map(|body| carrier::<M>((*body)?));
-    Fault::CarriesNothing {
+    Fault::Assembly(AssemblyFault::CarriesNothing {
         joint,
         instead: carriers.next(),
-    }
+    })
 }
 
 /// `N` coordinates: an array of handles, or a tuple where they are of different types.

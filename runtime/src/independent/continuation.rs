@@ -159,9 +159,11 @@ where
     /// # Errors
     /// - [`AnalysisFault::BranchEnds`] with the last value: equilibria end, or bend more sharply
     ///   than steps can follow.
-    /// - [`Fault::NotConverged`] where the start is not near an equilibrium.
-    /// - [`AnalysisFault::NotSteady`], [`AnalysisFault::NotChosen`]; [`Fault::Setting`] for the
-    ///   step, [`Fault::Parameter`] for an end that is not finite.
+    /// - [`StepFault::NotConverged`](crate::error::StepFault::NotConverged) where the start is not
+    ///   near an equilibrium.
+    /// - [`AnalysisFault::NotSteady`], [`AnalysisFault::NotChosen`];
+    ///   [`StartFault::Setting`](crate::error::StartFault::Setting) for the step,
+    ///   [`Fault::Parameter`] for an end that is not finite.
     /// - What [`IndependentCoordinates::linearise`] refuses.
     pub fn follow(
         &self,

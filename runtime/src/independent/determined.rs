@@ -113,7 +113,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// The same, also of a tree.
     ///
     /// # Errors
-    /// [`Fault::NotAssembled`], [`AnalysisFault::NotDetermined`],
+    /// [`AnalysisFault::NotAssembled`], [`AnalysisFault::NotDetermined`],
     /// [`AnalysisFault::NotIndependent`].
     pub(super) fn known(
         &self,
@@ -204,11 +204,11 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             (true, true) => (rates, Quantity::Speed),
             (true, false) => (rates, Quantity::AngularVelocity),
         };
-        Fault::NotAssembled {
+        Fault::Analysis(AnalysisFault::NotAssembled {
             joint: M::JOINT_REPORT.closing.get(row).copied().unwrap_or(""),
             quantity,
             violation: at(violated.as_slice(), row).abs().quotient(unit).to_f64(),
-        }
+        })
     }
 
     /// Whether what is computed does not depend on what `Phi` leaves unknown: it is compared with

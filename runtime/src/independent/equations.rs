@@ -6,7 +6,7 @@ use super::determined::Needs;
 use super::elimination::{at, set};
 use super::partition::{Partition, joint_rates};
 use super::{Equations, IndependentCoordinates};
-use crate::error::{Fault, NotFinite};
+use crate::error::{Fault, NotFinite, StepFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_rates::{
     HasCoriolis, HasGravity, HasInverse, HasMassMatrix, JointRates,
@@ -213,7 +213,8 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// displacements, kg m between the two.
     ///
     /// # Errors
-    /// - [`Fault::NotAssembled`]: the state does not satisfy the constraints.
+    /// - [`AnalysisFault::NotAssembled`](crate::error::AnalysisFault::NotAssembled): the state does
+    ///   not satisfy the constraints.
     /// - [`AnalysisFault::NotDetermined`]: the chosen coordinates do not determine the others here,
     ///   or not to the digits that the state has.
     /// - [`AnalysisFault::NotIndependent`]: closed loops restrict the chosen coordinates.
@@ -358,7 +359,7 @@ pub(super) fn finite_matrix<S: Real, const R: usize, const C: usize>(
 
 /// The fault of numbers that may not.
 pub(crate) const fn not_finite() -> Fault {
-    Fault::RatesNotFinite {
+    Fault::Step(StepFault::RatesNotFinite {
         origin: NotFinite::Unknown,
-    }
+    })
 }

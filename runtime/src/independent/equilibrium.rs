@@ -56,10 +56,12 @@ where
     ///
     /// # Errors
     /// [`AnalysisFault::NotSteady`] for a rate of a coordinate on which something depends;
-    /// [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2);
-    /// [`Fault::OnSwitch`] where a law jumps in the state that was found, as dry friction that
-    /// holds it does: it is one of many; [`Fault::BeyondLimit`] of one that lies beyond a limit of
-    /// the description, unless the space is
+    /// [`StepFault::NotConverged`](crate::error::StepFault::NotConverged) with the largest
+    /// acceleration that is left (rad/s^2, m/s^2);
+    /// [`AnalysisFault::OnSwitch`](crate::error::AnalysisFault::OnSwitch) where a law jumps in the
+    /// state that was found, as dry friction that holds it does: it is one of many;
+    /// [`AssemblyFault::BeyondLimit`](crate::error::AssemblyFault::BeyondLimit) of one that lies
+    /// beyond a limit of the description, unless the space is
     /// [`without_limits`](IndependentCoordinates::without_limits), for a stop is no force here;
     /// what [`IndependentCoordinates::linearise`] refuses.
     ///

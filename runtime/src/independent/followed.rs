@@ -10,7 +10,7 @@ use nalgebra::SVector;
 use super::balance::longest;
 use super::partition::write_rates;
 use super::{Equations, IndependentCoordinates};
-use crate::error::{AnalysisFault, Fault};
+use crate::error::{AnalysisFault, AssemblyFault, Fault};
 use crate::math::scalar::Real;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::relative::rates_of_motion;
@@ -85,9 +85,9 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
                 return Ok(state);
             }
         }
-        Err(Fault::WayEnds {
+        Err(Fault::Assembly(AssemblyFault::WayEnds {
             joint: Some(self.joint(0)),
             share: 0.0,
-        })
+        }))
     }
 }

@@ -8,8 +8,8 @@ use nalgebra::{DMatrix, DVector, SVector};
 use super::IndependentCoordinates;
 use super::base_parameters::BaseParameters;
 use super::equations::finite;
-use crate::error::Fault;
 use crate::error::setting::positive;
+use crate::error::{Fault, StartFault};
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::joint_rates::{HasInverse, HasJacobian, JointRates};
 
@@ -70,8 +70,8 @@ impl<M: HasJacobian, const N: usize, const B: usize> Identification<M, N, B> {
     /// of the mechanism, so that units do not matter.
     ///
     /// # Errors
-    /// [`Fault::Setting`] for a threshold that is not finite and positive.
-    pub fn with_threshold(mut self, threshold: f64) -> Result<Self, Fault> {
+    /// [`StartFault::Setting`] for a threshold that is not finite and positive.
+    pub fn with_threshold(mut self, threshold: f64) -> Result<Self, StartFault> {
         self.threshold = positive("threshold", threshold)?;
         Ok(self)
     }
@@ -80,8 +80,9 @@ impl<M: HasJacobian, const N: usize, const B: usize> Identification<M, N, B> {
     /// (N m, N) acted along the coordinates, beside the described forces.
     ///
     /// # Errors
-    /// As [`IndependentCoordinates::inverse`]; [`Fault::RatesNotFinite`] for efforts that are not
-    /// finite. The observation is then not taken.
+    /// As [`IndependentCoordinates::inverse`];
+    /// [`StepFault::RatesNotFinite`](crate::error::StepFault::RatesNotFinite) for efforts that are
+    /// not finite. The observation is then not taken.
     pub fn observe(
         &mut self,
         state: &M::JointState<f64>,
@@ -151,8 +152,10 @@ impl<M: HasJacobian, const N: usize, const B: usize> Identification<M, N, B> {
     /// matter.
     ///
     /// # Errors
-    /// [`Fault::Setting`]: a standard deviation that is not finite and positive; not more rows
-    /// (`surplus of rows`) than base parameters. [`Fault::RatesNotFinite`] where numbers overflow.
+    /// [`StartFault::Setting`]: a standard deviation that is not finite and positive; not more rows
+    /// (`surplus of rows`) than base parameters.
+    /// [`StepFault::RatesNotFinite`](crate::error::StepFault::RatesNotFinite) where numbers
+    /// overflow.
     pub fn identify(&self, deviations: impl Into<SVector<f64, N>>) -> Result<Identified<B>, Fault> {
         let deviations = deviations.into();
         for &deviation in &deviations {

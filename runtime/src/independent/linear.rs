@@ -12,7 +12,7 @@ use super::equations::Factors;
 use super::linearised::Linearised;
 use super::partition::{Partition, joint_rates};
 use super::varied::Adjusted;
-use crate::error::{Fault, LeavesOut, NotFinite};
+use crate::error::{Fault, LeavesOut, NotFinite, StepFault};
 use crate::forward::{Forward, Lifted, lifted};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read};
@@ -94,9 +94,10 @@ where
     /// ```
     ///
     /// # Errors
-    /// As [`IndependentCoordinates::mass`]; [`Fault::RatesNotFinite`] where there is no derivative;
-    /// [`Fault::OnSwitch`] where a law switches in this state, and its sides differ. Off its switch
-    /// a law is that of the side where it is.
+    /// As [`IndependentCoordinates::mass`]; [`StepFault::RatesNotFinite`] where there is no
+    /// derivative; [`AnalysisFault::OnSwitch`](crate::error::AnalysisFault::OnSwitch) where a law
+    /// switches in this state, and its sides differ. Off its switch a law is that of the side where
+    /// it is.
     pub fn linearise<const K: usize, const P: usize>(
         &self,
         state: &M::JointState<S>,
@@ -203,9 +204,9 @@ where
         if linear.is_finite() {
             Ok(linear)
         } else {
-            Err(Fault::RatesNotFinite {
+            Err(Fault::Step(StepFault::RatesNotFinite {
                 origin: NotFinite::Unknown,
-            })
+            }))
         }
     }
 

@@ -78,7 +78,7 @@ pub use modes::Mode;
 pub use regressor::INERTIAL_PARAMETERS;
 pub use varied::Varied;
 
-use crate::error::Fault;
+use crate::error::{AssemblyFault, Fault, ParameterError};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::without_bounds::copied;
 use crate::mechanism::joint_rates::JointRates;
@@ -163,7 +163,7 @@ pub trait IndependentExt: JointRates {
     /// # Errors
     /// - [`AnalysisFault::ChosenCount`]: more or fewer than there are degrees of freedom.
     /// - [`AnalysisFault::SeveralMotions`]: a joint that has more than one.
-    /// - [`Fault::CarriesNothing`]: a joint that closes a loop or drives.
+    /// - [`AssemblyFault::CarriesNothing`]: a joint that closes a loop or drives.
     ///   [`AnalysisFault::Carried`]: a body that a joint carries.
     /// - [`AnalysisFault::ChosenTwice`]; a parameter that is not acceptable.
     ///
@@ -224,8 +224,8 @@ impl<M: JointRates, const N: usize, S: Scalar> IndependentCoordinates<M, N, S> {
     /// Whether all joints are between the limits of the description.
     ///
     /// # Errors
-    /// [`Fault::BeyondLimit`] with the first one that is not, where it is, and its limit.
-    pub fn check_limits(&self, state: &M::JointState<S>) -> Result<(), Fault>
+    /// [`AssemblyFault::BeyondLimit`] with the first one that is not, where it is, and its limit.
+    pub fn check_limits(&self, state: &M::JointState<S>) -> Result<(), AssemblyFault>
     where
         S: Real,
     {
@@ -260,7 +260,7 @@ impl<M: JointRates, const N: usize, S: Scalar> IndependentCoordinates<M, N, S> {
     ///
     /// # Errors
     /// An input that is not finite; the former ones then stay.
-    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), Fault>
+    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), ParameterError>
     where
         S: Real,
     {

@@ -7,7 +7,7 @@ use super::elimination::at;
 use super::equations::{finite_matrix, solve};
 use super::partition::Partition;
 use super::{Equations, IndependentCoordinates};
-use crate::error::Fault;
+use crate::error::{Fault, StartFault, StepFault};
 use crate::forward::Forward;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, minus, plus, read, times};
@@ -201,7 +201,7 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// It is infinite where nothing can move along it.
     ///
     /// # Errors
-    /// As [`IndependentCoordinates::mass`]; [`Fault::Setting`] for a direction of length zero.
+    /// As [`IndependentCoordinates::mass`]; [`StartFault::Setting`] for a direction of length zero.
     pub fn effective_mass(
         &self,
         state: &M::JointState<S>,
@@ -218,10 +218,10 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             .iter()
             .fold(S::zero(), |most: S, part| most.max(part.abs()));
         if !(size > S::zero() && size.is_finite()) {
-            return Err(Fault::Setting {
+            return Err(Fault::Start(StartFault::Setting {
                 name: "direction",
                 value: size.to_f64(),
-            });
+            }));
         }
         let [x, y, z]: [S; 3] = direction.map(|part| part.quotient(size)).into();
         let square = x * x + y * y + z * z;
@@ -233,7 +233,7 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         if mobility.is_finite() {
             Ok(square.quotient(mobility))
         } else {
-            Err(Fault::StateNotFinite)
+            Err(Fault::Step(StepFault::StateNotFinite))
         }
     }
 }

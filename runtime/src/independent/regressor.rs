@@ -107,8 +107,9 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// Identification and Control of Robots*, 2002, chapter 12).
     ///
     /// # Errors
-    /// As [`IndependentCoordinates::mass`]; [`Fault::RatesNotFinite`] for accelerations that are
-    /// not finite.
+    /// As [`IndependentCoordinates::mass`];
+    /// [`StepFault::RatesNotFinite`](crate::error::StepFault::RatesNotFinite) for accelerations
+    /// that are not finite.
     pub fn regressor(
         &self,
         state: &M::JointState<S>,

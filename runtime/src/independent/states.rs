@@ -10,7 +10,8 @@ use super::partition::{Partition, put_velocities, write_rates};
 use super::{Equations, IndependentCoordinates};
 use crate::assembly::assembled;
 use crate::constraints::projection::Projection;
-use crate::error::{AnalysisFault, Fault};
+use crate::error::step::counted;
+use crate::error::{AnalysisFault, AssemblyFault, Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::mechanism::joint_kernels::{Freedom, JointMotion};
 use crate::mechanism::joint_rates::JointRates;
@@ -63,7 +64,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// description do not count; [`IndependentCoordinates::check_limits`] asks for them.
     ///
     /// # Errors
-    /// [`Fault::StateNotFinite`]; [`AnalysisFault::NoPosition`] for a chosen component of an
+    /// [`StepFault::StateNotFinite`]; [`AnalysisFault::NoPosition`] for a chosen component of an
     /// angular velocity; what
     /// [`MechanismExt::assemble`](crate::MechanismExt::assemble) refuses; a choice that fails on
     /// the way.
@@ -132,10 +133,10 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let widest = self.angles(&way).into_iter().fold(S::zero(), S::max);
         let steps = (widest * S::constant(1.0 / STRIDE)).to_f64();
         if steps > MANY {
-            return Err(Fault::WayEnds {
+            return Err(Fault::Assembly(AssemblyFault::WayEnds {
                 joint: Some(self.joint(0)),
                 share: MANY / steps,
-            });
+            }));
         }
         let steps = 1 + steps as u32;
         for step in 1..=steps {
@@ -150,10 +151,12 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
                 })
             });
             let next = next.map_err(|fault| match fault {
-                Fault::WayEnds { joint, share } => Fault::WayEnds {
-                    joint,
-                    share: (f64::from(step - 1) + share) / f64::from(steps),
-                },
+                Fault::Assembly(AssemblyFault::WayEnds { joint, share }) => {
+                    Fault::Assembly(AssemblyFault::WayEnds {
+                        joint,
+                        share: (f64::from(step - 1) + share) / f64::from(steps),
+                    })
+                }
                 fault => fault,
             })?;
             let [before, mut bodies] = [&state, &next].map(|state| self.bodies(state));
@@ -255,12 +258,12 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
                 first = open.to_f64();
             }
             if open.to_f64().is_nan() || open > before {
-                return Err(Fault::NotConverged {
-                    iterations: taken,
+                return Err(Fault::Step(StepFault::NotConverged {
+                    iterations: counted(taken),
                     residual: open.to_f64(),
                     joint: None,
                     alpha: None,
-                });
+                }));
             }
             before = open;
             let mut slope = state;
@@ -338,7 +341,7 @@ fn given<S: Real, const N: usize>(numbers: [S; N]) -> Result<SVector<S, N>, Faul
     if numbers.iter().all(|number| number.is_finite()) {
         Ok(SVector::from(numbers))
     } else {
-        Err(Fault::StateNotFinite)
+        Err(Fault::Step(StepFault::StateNotFinite))
     }
 }
 

@@ -12,7 +12,7 @@ use super::IndependentCoordinates;
 use super::directions::Along;
 use super::elimination::at;
 use super::varied::Adjusted;
-use crate::error::Fault;
+use crate::error::{AnalysisFault, Fault};
 use crate::forward::{Lifted, lifted};
 use crate::math::scalar::Real;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix};
@@ -101,10 +101,10 @@ where
                 let mut other = all;
                 other.hold(switch, -side);
                 if differ(&all, &other)? {
-                    return Err(Fault::OnSwitch {
+                    return Err(Fault::Analysis(AnalysisFault::OnSwitch {
                         law: switch.law,
                         expression: switch.expression,
-                    });
+                    }));
                 }
             }
         }

@@ -65,7 +65,8 @@ where
     ///   a negative mass.
     /// - [`AnalysisFault::NoEffect`]: a quantity that moves nothing which the other unknowns do
     ///   not.
-    /// - [`Fault::NotConverged`] with the largest acceleration that is left (rad/s^2, m/s^2).
+    /// - [`StepFault::NotConverged`](crate::error::StepFault::NotConverged) with the largest
+    ///   acceleration that is left (rad/s^2, m/s^2).
     /// - What [`IndependentCoordinates::equilibrium`] refuses.
     pub fn trim<const K: usize>(
         &self,

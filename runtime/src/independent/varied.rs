@@ -8,7 +8,7 @@ use super::choice::Coordinate;
 use super::directions::{Along, chosen};
 use super::elimination::at;
 use super::{Equations, IndependentCoordinates};
-use crate::error::{Fault, ParameterError, ParameterFault};
+use crate::error::{Fault, ParameterError, ParameterFault, StepFault};
 use crate::math::scalar::Real;
 use crate::math::vec3::read;
 use crate::math::without_bounds::copied;
@@ -54,8 +54,9 @@ impl<M: JointRates> Varied<M> {
     /// The rate (rad/s, m/s) of a coordinate, such as the speed of a shaft in steady motion.
     ///
     /// # Errors
-    /// [`AnalysisFault::SeveralMotions`], [`Fault::CarriesNothing`], [`AnalysisFault::Carried`]: no
-    /// such motion.
+    /// [`AnalysisFault::SeveralMotions`],
+    /// [`AssemblyFault::CarriesNothing`](crate::error::AssemblyFault::CarriesNothing),
+    /// [`AnalysisFault::Carried`]: no such motion.
     ///
     /// [`AnalysisFault::SeveralMotions`]: crate::error::AnalysisFault::SeveralMotions
     /// [`AnalysisFault::Carried`]: crate::error::AnalysisFault::Carried
@@ -175,7 +176,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ) -> Result<(), Fault> {
         match of {
             Adjusted::Value(place) => self.set_parameter(place, value),
-            Adjusted::Rate(_) if !value.is_finite() => Err(Fault::StateNotFinite),
+            Adjusted::Rate(_) if !value.is_finite() => Err(Fault::Step(StepFault::StateNotFinite)),
             Adjusted::Rate(number) => {
                 if let Some(rate) = rates.get_mut(number) {
                     *rate = value;

@@ -12,7 +12,7 @@ use super::balance::{longest, not_converged, solved};
 use super::stability::eigenvalues;
 use super::trim::{Set, Trial, sizes, trial, unit, with_values};
 use super::varied::Adjusted;
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::copied;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix, JointRates};
@@ -175,7 +175,7 @@ impl<const N: usize, S: Real> Walk<N, S> {
         let next = trial(set, state, &step.way, |place| {
             (place == 0).then_some((self.along, value + step.value))
         });
-        next.ok_or(Fault::StateNotFinite)
+        next.ok_or(Fault::Step(StepFault::StateNotFinite))
     }
 
     /// Newton's method in the plane across a direction of length one.

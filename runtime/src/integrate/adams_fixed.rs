@@ -9,7 +9,7 @@ use super::{
     Advance, Counts, ErrorModel, Integration, Integrator, Look, Memory, Method, NoStages,
     OneStep as _, Rk4, Slopes, StepStart, System, TimeSpan, dense, named,
 };
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
@@ -152,7 +152,8 @@ impl<S: Real, X: Vector<S>> AdamsFixedIntegration<S, X> {
         step: S,
         fault: Option<Fault>,
     ) -> Fault {
-        named(fault, system, |system| self.advanced(system, step)).unwrap_or(Fault::StateNotFinite)
+        named(fault, system, |system| self.advanced(system, step))
+            .unwrap_or(Fault::Step(StepFault::StateNotFinite))
     }
 }
 

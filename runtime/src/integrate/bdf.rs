@@ -8,7 +8,7 @@ use super::linear::Factors;
 use super::newton::{Age, Newton, Progress, remember_columns};
 use super::record::{Reached, reached};
 use super::{Advance, Counts, Integration, Memory, Slopes, System, TimeSpan, named};
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
@@ -386,7 +386,9 @@ impl<S: Real, Y: System<S>> Advance<S, Y> for BdfIntegration<S, Y::State> {
                     (None, factor.max(S::constant(0.2)).min(S::constant(0.9)))
                 }
                 // A Jacobian of a former state may be the reason.
-                Ok(None) | Err(Fault::StateNotFinite) if self.age == Age::Former => {
+                Ok(None) | Err(Fault::Step(StepFault::StateNotFinite))
+                    if self.age == Age::Former =>
+                {
                     self.age = Age::Unknown;
                     continue;
                 }

@@ -9,15 +9,15 @@ pub struct StepLimits<S> {
     /// The first step (s), in the place of that of the control.
     pub first: Option<S>,
     /// The smallest step (s): where a smaller one would be needed, the integration ends with
-    /// [`Fault::StepSizeUnderflow`](crate::Fault::StepSizeUnderflow). Never below the resolution of
-    /// the time.
+    /// [`StepFault::SizeUnderflow`](crate::error::StepFault::SizeUnderflow). Never below the
+    /// resolution of the time.
     pub least: Option<S>,
     /// The largest step (s), in the place of a tenth of the interval. What happens within a step
     /// and leaves no trace at its stages, such as a short pulse of a force, is not seen: a step
     /// must not be longer than that.
     pub largest: Option<S>,
     /// How many evaluations a run may take, [`StepLimits::EVALUATIONS`] by default: then it ends
-    /// with [`Fault::Budget`](crate::Fault::Budget).
+    /// with [`StepFault::Budget`](crate::error::StepFault::Budget).
     pub evaluations: usize,
 }
 

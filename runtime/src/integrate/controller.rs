@@ -2,8 +2,8 @@
 
 use super::{StepLimits, TimeSpan};
 use crate::constraints::scales::Scales;
-use crate::error::Fault;
 use crate::error::setting::positive;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::Vector;
@@ -162,12 +162,12 @@ impl<S: Real> Controller<S> {
     /// The end of an integration at a time where a step as small as it may be is not accepted.
     #[cold]
     pub(super) fn underflow(&self, step: S, time: S) -> Fault {
-        Fault::StepSizeUnderflow {
+        Fault::Step(StepFault::SizeUnderflow {
             step: step.to_f64(),
             is_least: self.least >= self.smallest(time),
             joint: None,
             resolution: None,
-        }
+        })
     }
 
     /// The first step from a state with its slope; `share` is what it takes of the change that the

@@ -7,8 +7,8 @@ use super::{
     Method, Midpoint, OneStep, Rk4, Scheme, SemiImplicitEuler, Slopes, StepStart, System, TimeSpan,
     refused,
 };
-use crate::error::Fault;
 use crate::error::setting::positive;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
@@ -113,10 +113,10 @@ impl<S: Real> Grid<S> {
             step = end - time;
         }
         if end <= time {
-            return Err(Fault::StepTooShort {
+            return Err(Fault::Step(StepFault::TooShort {
                 step: step.to_f64(),
                 time: time.to_f64(),
-            });
+            }));
         }
         Ok((step, end))
     }

@@ -9,7 +9,7 @@ use super::{
     Advance, Counts, ErrorModel, Integration, Integrator, Memory, Method, NoStages,
     RigidConstraints, TimeSpan, dense,
 };
-use crate::error::Fault;
+use crate::error::{Fault, StartFault};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
@@ -54,13 +54,15 @@ use crate::state::vector::Vector;
 /// dampers decay with 8117 1/s and are solved for at steps of 0.01 s. It goes on until it changes
 /// by round-off only: some six iterations for what is not stiff, up to some thirty for what is,
 /// each of the cost of an evaluation or somewhat more. Where it does not converge the run ends with
-/// [`Fault::StepNotSolved`], and time and state are those before the step. Many different stiff
-/// springs at once, as of a finite element mesh, are beyond it.
+/// [`StepFault::NotSolved`](crate::error::StepFault::NotSolved), and time and state are those
+/// before the step. Many different stiff springs at once, as of a finite element mesh, are beyond
+/// it.
 ///
 /// **What it needs** is a system with [`RigidConstraints`]: a mechanism in absolute coordinates
 /// with [`StandardLagrange`](crate::StandardLagrange). With another formulation and in joint
 /// coordinates (a tree has no constraints: any method keeps its joints closed) a run does not
-/// compile. Where equations depend on each other it ends with [`Fault::Singular`].
+/// compile. Where equations depend on each other it ends with
+/// [`StepFault::Singular`](crate::error::StepFault::Singular).
 ///
 /// `a0` begins as `u0'`, and so it does after a break. Energy: kept for `rho = 1` but for a swing
 /// of the order of `h^2`; a motion of `x` radians a step loses `((1 - rho) / (1 + rho))^3 x^4 / 2`
@@ -138,10 +140,10 @@ impl<S: Real> AlphaWeights<S> {
     /// Those of order 2 and the least error at low frequencies for a spectral radius.
     ///
     /// # Errors
-    /// [`Fault::SpectralRadius`] if it is not from 0 to 1.
-    pub fn of(rho: S) -> Result<Self, Fault> {
+    /// [`StartFault::SpectralRadius`] if it is not from 0 to 1.
+    pub fn of(rho: S) -> Result<Self, StartFault> {
         if !(rho >= S::zero() && rho <= S::one()) {
-            return Err(Fault::SpectralRadius {
+            return Err(StartFault::SpectralRadius {
                 value: rho.to_f64(),
             });
         }

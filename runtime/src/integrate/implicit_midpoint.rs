@@ -3,7 +3,8 @@
 use core::mem::swap;
 
 use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, StepStart, System};
-use crate::error::Fault;
+use crate::error::step::counted;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
@@ -18,8 +19,8 @@ use crate::state::vector::Vector;
 /// The slope `k` is found by fixed-point iteration from that at the start (VIII.6), until it
 /// changes by round-off only. An iteration is an evaluation: about seven where `h L` is 0.01, with
 /// `L` the largest rate (1/s) of what the system does, sixteen at 0.2; at 2 it does not converge,
-/// and such a step ends with [`Fault::NoFixedPoint`]. Output within a step is by the cubic through
-/// states and slopes at both ends.
+/// and such a step ends with [`StepFault::NoFixedPoint`]. Output within a step is by the cubic
+/// through states and slopes at both ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ImplicitMidpoint;
 
@@ -74,9 +75,11 @@ impl<S: Real, Y: System<S>> OneStep<S, Y> for ImplicitMidpoint {
         _stages: &mut NoStages,
     ) -> Result<Y::State, Fault> {
         let half = S::constant(0.5) * step;
-        let too_long = |iterations| Fault::NoFixedPoint {
-            step: step.to_f64(),
-            iterations,
+        let too_long = |iterations| {
+            Fault::Step(StepFault::NoFixedPoint {
+                step: step.to_f64(),
+                iterations: counted(iterations),
+            })
         };
         // Elements that are small beside the largest may be round-off throughout.
         let small = S::EPSILON.sqrt();

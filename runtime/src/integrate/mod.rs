@@ -107,8 +107,8 @@ pub(crate) use self::memory::Tape;
 pub(crate) use self::newton::by_differences;
 
 use self::slopes::named;
-use crate::error::Fault;
 use crate::error::setting::interval;
+use crate::error::{Fault, StartFault, StepFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::state::vector::Vector;
 
@@ -149,8 +149,8 @@ pub trait System<S: Scalar> {
     /// first stage that is not.
     ///
     /// # Errors
-    /// What else keeps the system from having rates here; [`Fault::StateNotFinite`] leaves it to
-    /// [`System::diagnose`] to say why.
+    /// What else keeps the system from having rates here; [`StepFault::StateNotFinite`] leaves it
+    /// to [`System::diagnose`] to say why.
     #[inline(always)]
     fn stage(
         &mut self,
@@ -534,7 +534,7 @@ pub struct TimeSpan<S> {
 
 impl<S: Real> TimeSpan<S> {
     /// Its length (s), finite and positive.
-    fn duration(&self) -> Result<S, Fault> {
+    fn duration(&self) -> Result<S, StartFault> {
         let duration = self.end - self.start;
         if duration.is_finite() && duration > S::zero() {
             Ok(duration)
@@ -592,5 +592,5 @@ fn refused<S: Real, K: OneStep<S, Y>, Y: System<S>>(
         let start = StepStart { time, state, slope };
         scheme.advanced(system, start, step, &mut scheme.stages(slope))
     })
-    .unwrap_or(Fault::StateNotFinite)
+    .unwrap_or(Fault::Step(StepFault::StateNotFinite))
 }

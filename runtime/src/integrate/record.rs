@@ -3,7 +3,7 @@
 use core::mem::replace;
 
 use super::{Counts, Memory, Scheme, Slopes, StepEnds, StepRecord, System, TimeSpan, named};
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
@@ -70,7 +70,7 @@ impl<S: Real, X: Vector<S>> Reached<S, X> {
         let outcome = Slopes::counted(system, counts).stage(time, state, &mut self.slope);
         if outcome.is_err() || !self.slope.is_finite() {
             let fault = named(outcome.err(), system, |system| system.rates(time, state));
-            return Err(fault.unwrap_or(Fault::StateNotFinite));
+            return Err(fault.unwrap_or(Fault::Step(StepFault::StateNotFinite)));
         }
         self.is_known = true;
         Ok(())

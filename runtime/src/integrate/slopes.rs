@@ -2,7 +2,7 @@
 //! comes out why a step is refused.
 
 use super::{Counts, SecondOrder, System};
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::without_bounds::opaque;
 use crate::state::vector::Vector;
@@ -117,9 +117,9 @@ impl<S: Real, X: Vector<S>> Look<S, X> for Checking<S, X> {
     ) -> Result<(), Fault> {
         match apart(system, time, state, rates) {
             Ok(()) if rates.is_finite() => Ok(()),
-            Ok(()) | Err(Fault::StateNotFinite) => {
+            Ok(()) | Err(Fault::Step(StepFault::StateNotFinite)) => {
                 self.remember(time, state);
-                Err(Fault::StateNotFinite)
+                Err(Fault::Step(StepFault::StateNotFinite))
             }
             Err(known) => Err(known),
         }
@@ -224,7 +224,7 @@ pub(super) fn named<S: Real, Y: System<S>, T>(
     again: impl FnOnce(&mut Slopes<'_, Y, Checking<S, Y::State>>) -> Result<T, Fault>,
 ) -> Option<Fault> {
     if let Some(known) = fault
-        && !matches!(known, Fault::StateNotFinite)
+        && !matches!(known, Fault::Step(StepFault::StateNotFinite))
     {
         return Some(known);
     }

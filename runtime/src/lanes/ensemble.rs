@@ -6,7 +6,7 @@ use core::fmt::{self, Debug};
 use super::equations::{LaneEquations, StateOfAll};
 use super::exchange::{put_state, state_of};
 use crate::dynamics::{Bodies, Dynamics, Problem, Solvable, State, WithCoordinates};
-use crate::error::{Fault, SimulationError};
+use crate::error::{Fault, ParameterError, SimulationError, StepFault};
 use crate::formulation::Formulation;
 use crate::integrate::Scheme;
 use crate::math::clock::Clock;
@@ -214,7 +214,7 @@ impl<P: Solvable, K: Scheme<P::Number>, const L: usize> Ensemble<P, K, L> {
         let mut bodies = bodies.iter();
         self.begin(|dynamics| match bodies.next() {
             Some(bodies) => dynamics.state_of(bodies),
-            None => Err(Fault::StateNotFinite),
+            None => Err(Fault::Step(StepFault::StateNotFinite)),
         });
     }
 
@@ -236,7 +236,7 @@ impl<P: Solvable, K: Scheme<P::Number>, const L: usize> Ensemble<P, K, L> {
     pub fn set_inputs(
         &mut self,
         inputs: &[InputsOf<P::Mechanism, P::Number>; L],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), ParameterError> {
         let mut lanes = self.dynamics.iter_mut().zip(inputs);
         let outcome = lanes.try_for_each(|(dynamics, inputs)| dynamics.set_inputs(inputs));
         for (lane, stopped) in self.stopped.iter().enumerate() {

@@ -25,9 +25,9 @@ where
     ///
     /// # Errors
     /// A step that is not positive and finite, or below the resolution of the time where laws
-    /// depend on it; [`Fault::LimitsLeftOut`] of a description with limits, unless
-    /// [`Ensemble::without_limits`] is said. Nothing is moved then. What a lane cannot do stops
-    /// that lane ([`Ensemble::stopped`]) and is no error here.
+    /// depend on it; [`StartFault::LimitsLeftOut`](crate::error::StartFault::LimitsLeftOut) of a
+    /// description with limits, unless [`Ensemble::without_limits`] is said. Nothing is moved then.
+    /// What a lane cannot do stops that lane ([`Ensemble::stopped`]) and is no error here.
     pub fn step(&mut self, dt: T) -> Result<(), Fault> {
         if !self.passes_limits {
             refuse_limits::<P::Mechanism>(Unheeding::Ensemble)?;

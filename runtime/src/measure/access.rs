@@ -5,7 +5,7 @@ use nalgebra::{Quaternion, Vector3};
 use crate::assembly::assembled;
 use crate::assembly::subtree::Subtree;
 use crate::constraints::projection::{Correction, Projection};
-use crate::error::{Fault, ParameterError};
+use crate::error::{AssemblyFault, Fault, ParameterError};
 use crate::math::quaternion::{
     conjugate, normalised, normalised_or_zero, product, rotate, rotate_back,
 };
@@ -79,8 +79,9 @@ pub trait MechanismExt: Mechanism {
     /// was moved.
     ///
     /// # Errors
-    /// A parameter that is not acceptable; [`Fault::WayEnds`] where the branch does not reach what
-    /// was set; [`Fault::NotConverged`]; [`Fault::WrongSide`]. The state is then as before.
+    /// A parameter that is not acceptable; [`AssemblyFault::WayEnds`] where the branch does not
+    /// reach what was set; [`StepFault::NotConverged`](crate::error::StepFault::NotConverged);
+    /// [`AssemblyFault::WrongSide`]. The state is then as before.
     fn assemble<S: Real>(
         &self,
         time: S,
@@ -129,7 +130,8 @@ pub trait MechanismExt: Mechanism {
     }
 
     /// Sets position and orientation of a body; the orientation may have any length but zero, which
-    /// whatever uses the state refuses with [`Fault::ZeroOrientation`].
+    /// whatever uses the state refuses with
+    /// [`StepFault::ZeroOrientation`](crate::error::StepFault::ZeroOrientation).
     ///
     /// **A pose does not tell turns.** Angles that count them
     /// ([`Report::auxiliaries`](crate::Report::auxiliaries): of screws, gears, racks, drivers of
@@ -167,17 +169,17 @@ pub trait MechanismExt: Mechanism {
     /// its orientations have and that are nearest to these, which may be off by up to half a turn.
     ///
     /// # Errors
-    /// [`Fault::CountedAngles`] for another number of angles than the joint or force counts; the
-    /// state is then as before.
+    /// [`AssemblyFault::CountedAngles`] for another number of angles than the joint or force
+    /// counts; the state is then as before.
     fn set_unwrapped_angles<S: Scalar, E: CountsTurns<Self>>(
         state: &mut Self::State<S>,
         element: E,
         angles: &[S],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), AssemblyFault> {
         let coordinates = state.coordinates_mut().as_mut_slice();
         let places = coordinates.get_mut(element.counters()).unwrap_or(&mut []);
         if places.len() != angles.len() {
-            return Err(Fault::CountedAngles {
+            return Err(AssemblyFault::CountedAngles {
                 element: element.element(),
                 counted: places.len(),
                 given: angles.len(),
@@ -215,9 +217,10 @@ pub trait MechanismExt: Mechanism {
     /// nearest one.
     ///
     /// # Errors
-    /// [`Fault::CarriesNothing`] for a joint that carries no body: it closes a loop, or drives what
-    /// another one carries. [`Fault::NotFree`] for one whose angle is not that of its motion.
-    /// [`Fault::StateNotFinite`], a parameter that is not acceptable. The state is then as before.
+    /// [`AssemblyFault::CarriesNothing`] for a joint that carries no body: it closes a loop, or
+    /// drives what another one carries. [`AssemblyFault::NotFree`] for one whose angle is not that
+    /// of its motion. [`StepFault::StateNotFinite`](crate::error::StepFault::StateNotFinite), a
+    /// parameter that is not acceptable. The state is then as before.
     fn set_angle<S: Real, J: HasAngle>(
         &self,
         state: &mut Self::State<S>,
@@ -284,11 +287,11 @@ pub trait MechanismExt: Mechanism {
     /// point as one body, see [`MechanismExt::set_angle`].
     ///
     /// The quaternion may have any length but zero, which is refused with
-    /// [`Fault::StateNotFinite`].
+    /// [`StepFault::StateNotFinite`](crate::error::StepFault::StateNotFinite).
     ///
     /// # Errors
-    /// As [`MechanismExt::set_angle`]; [`Fault::NotFree`] for a joint that does not leave all
-    /// rotations free.
+    /// As [`MechanismExt::set_angle`]; [`AssemblyFault::NotFree`] for a joint that does not leave
+    /// all rotations free.
     fn set_relative_orientation<S: Real, J: Joint>(
         &self,
         state: &mut Self::State<S>,

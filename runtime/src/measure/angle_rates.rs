@@ -8,7 +8,7 @@
 
 use nalgebra::Vector3;
 
-use crate::error::{AngleSet, Fault};
+use crate::error::{AngleSet, Fault, ReadingFault, StepFault};
 use crate::math::quaternion::rotate_back;
 use crate::math::scalar::Real;
 use crate::math::vec3::minus;
@@ -198,22 +198,22 @@ fn no_rates<S: Real, M: Mechanism>(
 ) -> Fault {
     let body = body.name();
     if turning.iter().all(|component| component.is_finite()) {
-        Fault::SingularAngles { body, angles }
+        Fault::Reading(ReadingFault::SingularAngles { body, angles })
     } else {
-        Fault::StateNotFinite
+        Fault::Step(StepFault::StateNotFinite)
     }
 }
 
 /// Rates (rad/s) of the angles of an orientation, against global axes or those of another body.
 ///
-/// All are refused where the angles are. That is [`Fault::SingularAngles`] where the first and the
-/// third turn about one axis, and [`Fault::ZeroOrientation`] where the state holds no orientation.
-/// Beside that, [`Fault::StateNotFinite`] where a rate would not be finite.
+/// All are refused where the angles are. That is [`ReadingFault::SingularAngles`] where the first
+/// and the third turn about one axis, and [`StepFault::ZeroOrientation`] where the state holds no
+/// orientation. Beside that, [`StepFault::StateNotFinite`] where a rate would not be finite.
 impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S, M, K> {
     /// Rates (rad/s) of [`View::euler_angles`].
     ///
     /// # Errors
-    /// As [`View::euler_angles`]; [`Fault::StateNotFinite`] for a rate too.
+    /// As [`View::euler_angles`]; [`StepFault::StateNotFinite`] for a rate too.
     pub fn euler_angle_rates(&self, body: BodyHandle<M>) -> Result<EulerAngleRates<S>, Fault> {
         let angles = self.euler_angles(body)?;
         let turning = self.turning(body, None);
@@ -239,7 +239,7 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
     /// Rates (rad/s) of [`View::bryant_angles`].
     ///
     /// # Errors
-    /// As [`View::bryant_angles`]; [`Fault::StateNotFinite`] for a rate too.
+    /// As [`View::bryant_angles`]; [`StepFault::StateNotFinite`] for a rate too.
     pub fn bryant_angle_rates(&self, body: BodyHandle<M>) -> Result<BryantAngleRates<S>, Fault> {
         let angles = self.bryant_angles(body)?;
         let turning = self.turning(body, None);
@@ -265,7 +265,7 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
     /// Rates (rad/s) of [`View::roll_pitch_yaw`].
     ///
     /// # Errors
-    /// As [`View::roll_pitch_yaw`]; [`Fault::StateNotFinite`] for a rate too.
+    /// As [`View::roll_pitch_yaw`]; [`StepFault::StateNotFinite`] for a rate too.
     pub fn roll_pitch_yaw_rates(&self, body: BodyHandle<M>) -> Result<RollPitchYawRates<S>, Fault> {
         let angles = self.roll_pitch_yaw(body)?;
         let turning = self.turning(body, None);

@@ -6,7 +6,7 @@
 
 use nalgebra::Quaternion;
 
-use crate::error::{AngleSet, Fault};
+use crate::error::{AngleSet, Fault, ReadingFault, StepFault};
 use crate::math::angles::{Angles, of_turns, rpy, xyz, zxz};
 use crate::math::quaternion::{conjugate, product};
 use crate::math::scalar::Real;
@@ -147,10 +147,10 @@ angles! {
 /// Orientations as three angles, from the user's body axes to global axes, or to those of another
 /// body. A particle has the global axes.
 ///
-/// All of these are refused, and return no angle, with [`Fault::SingularAngles`] where the first
-/// and the third angle turn about one axis, to half of the digits of the numbers: see
-/// [`EulerAngles::of`](crate::measure::EulerAngles::of). [`Fault::StateNotFinite`] and
-/// [`Fault::ZeroOrientation`] where the state holds no orientation.
+/// All of these are refused, and return no angle, with [`ReadingFault::SingularAngles`] where the
+/// first and the third angle turn about one axis, to half of the digits of the numbers: see
+/// [`EulerAngles::of`](crate::measure::EulerAngles::of). [`StepFault::StateNotFinite`] and
+/// [`StepFault::ZeroOrientation`] where the state holds no orientation.
 impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S, M, K> {
     /// The orientation of a body against another: the unit quaternion from the user's axes of
     /// `body` to the user's axes of `base`.
@@ -163,8 +163,8 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
     /// Euler angles (rad) of a body, z-x-z, against global axes.
     ///
     /// # Errors
-    /// [`Fault::SingularAngles`] where the body's z axis is parallel to the global one;
-    /// [`Fault::StateNotFinite`], [`Fault::ZeroOrientation`].
+    /// [`ReadingFault::SingularAngles`] where the body's z axis is parallel to the global one;
+    /// [`StepFault::StateNotFinite`], [`StepFault::ZeroOrientation`].
     pub fn euler_angles(&self, body: BodyHandle<M>) -> Result<EulerAngles<S>, Fault> {
         self.angles(body, None, AngleSet::EulerZxz)
     }
@@ -184,8 +184,8 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
     /// Bryant angles (rad) of a body, x-y-z, against global axes.
     ///
     /// # Errors
-    /// [`Fault::SingularAngles`] where the body's z axis is parallel to the global x axis;
-    /// [`Fault::StateNotFinite`], [`Fault::ZeroOrientation`].
+    /// [`ReadingFault::SingularAngles`] where the body's z axis is parallel to the global x axis;
+    /// [`StepFault::StateNotFinite`], [`StepFault::ZeroOrientation`].
     pub fn bryant_angles(&self, body: BodyHandle<M>) -> Result<BryantAngles<S>, Fault> {
         self.angles(body, None, AngleSet::BryantXyz)
     }
@@ -205,8 +205,8 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
     /// Roll, pitch and yaw (rad) of a body, against global axes.
     ///
     /// # Errors
-    /// [`Fault::SingularAngles`] where the body's x axis is parallel to the global z axis;
-    /// [`Fault::StateNotFinite`], [`Fault::ZeroOrientation`].
+    /// [`ReadingFault::SingularAngles`] where the body's x axis is parallel to the global z axis;
+    /// [`StepFault::StateNotFinite`], [`StepFault::ZeroOrientation`].
     pub fn roll_pitch_yaw(&self, body: BodyHandle<M>) -> Result<RollPitchYaw<S>, Fault> {
         self.angles(body, None, AngleSet::RollPitchYaw)
     }
@@ -235,7 +235,10 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
         let found = read_as(angles, &self.against(body, base));
         if !is_regular(&found) {
             let body = body.name();
-            return Err(Fault::SingularAngles { body, angles });
+            return Err(Fault::Reading(ReadingFault::SingularAngles {
+                body,
+                angles,
+            }));
         }
         Ok(found.0.into())
     }
@@ -268,11 +271,11 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
         let p: [S; 4] = read(self.state().coordinates().as_slice(), place);
         let square = square(&p);
         if !square.is_finite() {
-            return Err(Fault::StateNotFinite);
+            return Err(Fault::Step(StepFault::StateNotFinite));
         }
         if square == S::zero() {
             let body = body.name();
-            return Err(Fault::ZeroOrientation { body });
+            return Err(Fault::Step(StepFault::ZeroOrientation { body }));
         }
         Ok(())
     }

@@ -20,7 +20,7 @@ use self::bodies::Bodies;
 use self::counters::Counters;
 use self::names::NameOf;
 use self::states::States;
-use crate::error::Fault;
+use crate::error::StepFault;
 use crate::math::scalar::Real;
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
@@ -164,9 +164,9 @@ const fn none<T>() -> Option<T> {
 }
 
 /// Refuses a state that is none.
-fn check<M: Mechanism, S: Real>(time: S, state: &M::State<S>) -> Result<(), Fault> {
+fn check<M: Mechanism, S: Real>(time: S, state: &M::State<S>) -> Result<(), StepFault> {
     if !time.is_finite() {
-        return Err(Fault::StateNotFinite);
+        return Err(StepFault::StateNotFinite);
     }
     check_state::<S, M>(state)
 }

@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 
 use nalgebra::Vector3;
 
-use crate::error::Fault;
+use crate::error::ReadingFault;
 use crate::math::scalar::Scalar;
 use crate::math::vec3::{minus, read, square, times};
 use crate::math::without_bounds::copied;
@@ -255,18 +255,18 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     /// puts in.
     ///
     /// # Errors
-    /// [`Fault::NoEffort`] where the driver's equation was left out as redundant: other joints
-    /// carry what it would.
+    /// [`ReadingFault::NoEffort`] where the driver's equation was left out as redundant: other
+    /// joints carry what it would.
     pub fn driving_effort<J: Driven>(
         &self,
         multipliers: &M::Multipliers<S>,
         joint: JointHandle<M, J>,
-    ) -> Result<S, Fault> {
+    ) -> Result<S, ReadingFault> {
         let row = joint.row(J::ROW);
         let multiplier = row.and_then(|row| multipliers.as_slice().get(row));
         multiplier
             .map(|&multiplier| -multiplier)
-            .ok_or(Fault::NoEffort {
+            .ok_or(ReadingFault::NoEffort {
                 joint: joint.name(),
             })
     }
@@ -275,13 +275,13 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     /// joint's point on that body, from the multipliers at this state.
     ///
     /// # Errors
-    /// [`Fault::NotBetween`] for a body that is not of the joint.
+    /// [`ReadingFault::NotBetween`] for a body that is not of the joint.
     pub fn reaction<J>(
         &self,
         multipliers: &M::Multipliers<S>,
         joint: JointHandle<M, J>,
         body: BodyHandle<M>,
-    ) -> Result<Wrench<S>, Fault> {
+    ) -> Result<Wrench<S>, ReadingFault> {
         let bodies = joint.info().map_or(&[][..], |info| info.bodies);
         let place = place_of(bodies, joint.name(), body)?;
         self.reaction_on_place(multipliers, joint, place)
@@ -290,17 +290,17 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     /// The same by the place of the body in `between`: 0 is the first, which may be the ground.
     ///
     /// # Errors
-    /// [`Fault::NoSuchPlace`] for a place that `between` does not have.
+    /// [`ReadingFault::NoSuchPlace`] for a place that `between` does not have.
     pub fn reaction_on_place<J>(
         &self,
         multipliers: &M::Multipliers<S>,
         joint: JointHandle<M, J>,
         place: usize,
-    ) -> Result<Wrench<S>, Fault> {
+    ) -> Result<Wrench<S>, ReadingFault> {
         let state = self.state_of_kernels();
         let (constants, time, index) = (self.constants(), self.time, joint.index());
         wrench::<S, M>(constants, time, &state, multipliers, index, place).ok_or_else(|| {
-            Fault::NoSuchPlace {
+            ReadingFault::NoSuchPlace {
                 joint: joint.name(),
                 place,
                 places: joint.info().map_or(0, |info| info.bodies.len()),
@@ -338,12 +338,12 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     /// centre of mass.
     ///
     /// # Errors
-    /// [`Fault::NotBetween`] for a body that is not in the force's `between`.
+    /// [`ReadingFault::NotBetween`] for a body that is not in the force's `between`.
     pub fn load<F>(
         &self,
         force: ForceHandle<M, F>,
         body: BodyHandle<M>,
-    ) -> Result<Wrench<S>, Fault> {
+    ) -> Result<Wrench<S>, ReadingFault> {
         let bodies = force.info().map_or(&[][..], |info| info.bodies);
         let place = place_of(bodies, force.name(), body)?;
         let [fx, fy, fz, mx, my, mz] = M::force_load(
@@ -434,9 +434,9 @@ fn place_of<M: Mechanism>(
     bodies: &[Option<usize>],
     element: &'static str,
     body: BodyHandle<M>,
-) -> Result<usize, Fault> {
+) -> Result<usize, ReadingFault> {
     let place = bodies.iter().position(|&b| b == Some(body.index()));
-    place.ok_or_else(|| Fault::NotBetween {
+    place.ok_or_else(|| ReadingFault::NotBetween {
         element,
         body: body.name(),
     })

@@ -1,6 +1,6 @@
 //! Absolute coordinates, by the kernels of a mechanism.
 
-use crate::error::Fault;
+use crate::error::StepFault;
 use crate::math::quaternion::scale_near_unit_length;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{read, write};
@@ -237,7 +237,7 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         with_nearer_signs::<S, M>(*bodies, near)
     }
 
-    fn check<S: Real>(state: &M::State<S>) -> Result<(), Fault> {
+    fn check<S: Real>(state: &M::State<S>) -> Result<(), StepFault> {
         check_state::<S, M>(state)
     }
 

@@ -8,7 +8,7 @@
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
-use crate::error::Fault;
+use crate::error::StepFault;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::{Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms};
@@ -250,7 +250,7 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + Sealed + 'static {
     ///
     /// # Errors
     /// What is wrong with it.
-    fn check<S: Real>(state: &Self::State<S>) -> Result<(), Fault>;
+    fn check<S: Real>(state: &Self::State<S>) -> Result<(), StepFault>;
 
     /// The body whose velocity stands at a place.
     fn body_of_velocity(place: usize) -> Option<&'static str>;

@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use crate::error::{Fault, LeavesOut, ParameterError};
+use crate::error::{LeavesOut, ParameterError, StartFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::coordinates::{Coordinates, Evaluation};
 use crate::mechanism::limits::{JointLimits, Several};
@@ -460,10 +460,10 @@ pub trait Mechanism: Sized + 'static {
 }
 
 /// Refuses a mechanism with states of the user's own.
-pub(crate) fn bodies_alone<M: Mechanism>(by: LeavesOut) -> Result<(), Fault> {
+pub(crate) fn bodies_alone<M: Mechanism>(by: LeavesOut) -> Result<(), StartFault> {
     match M::REPORT.states {
         [] => Ok(()),
-        [first, ..] => Err(Fault::StateLeftOut {
+        [first, ..] => Err(StartFault::StateLeftOut {
             state: first.name,
             by,
         }),

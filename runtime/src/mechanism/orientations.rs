@@ -1,6 +1,6 @@
 //! The Euler parameters of all bodies of a state.
 
-use crate::error::Fault;
+use crate::error::StepFault;
 use crate::math::quaternion::{length, normalised, scale, to_unit_length};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{read, square, write};
@@ -9,16 +9,16 @@ use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts, Vector};
 
 /// Refuses a state that holds a number that is not finite, or Euler parameters that are zero.
-pub(crate) fn check_state<S: Real, M: Mechanism>(state: &M::State<S>) -> Result<(), Fault> {
+pub(crate) fn check_state<S: Real, M: Mechanism>(state: &M::State<S>) -> Result<(), StepFault> {
     if !state.is_finite() {
-        return Err(Fault::StateNotFinite);
+        return Err(StepFault::StateNotFinite);
     }
     let coordinates = state.coordinates().as_slice();
     for body in M::REPORT.bodies {
         if body.kind == BodyKind::Rigid {
             let p: [S; 4] = read(coordinates, body.coordinate + 3);
             if square(&p) == S::zero() {
-                return Err(Fault::ZeroOrientation { body: body.name });
+                return Err(StepFault::ZeroOrientation { body: body.name });
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Relative coordinates, by the kernels of a mechanism in joint coordinates.
 
-use crate::error::Fault;
+use crate::error::StepFault;
 use crate::math::quaternion::{from_matrix, scale, scale_near_unit_length, to_unit_length};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{read, take, write};
@@ -318,11 +318,11 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         state
     }
 
-    fn check<S: Real>(state: &M::JointState<S>) -> Result<(), Fault> {
+    fn check<S: Real>(state: &M::JointState<S>) -> Result<(), StepFault> {
         if state.is_finite() {
             Ok(())
         } else {
-            Err(Fault::StateNotFinite)
+            Err(StepFault::StateNotFinite)
         }
     }
 

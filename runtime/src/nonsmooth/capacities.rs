@@ -5,7 +5,7 @@
 //! with its load, and the problem with those bounds says what sticks. That goes on until a solution
 //! has the loads that its bounds are of.
 
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
@@ -236,7 +236,7 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
         let mut by_load = self.list.iter();
         let first = by_load.find(|tracked| tracked.bearing().is_some());
         let fault = first.map(|tracked| no_mode(setting, tracked));
-        Err(fault.unwrap_or(Fault::StateNotFinite))
+        Err(fault.unwrap_or(Fault::Step(StepFault::StateNotFinite)))
     }
 
     /// All limits that are touched hold, and all friction at rest.

@@ -1,6 +1,6 @@
 //! The modes that follow, once impulses are known.
 
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault};
 use crate::formulation::{Formulation, Solution};
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
@@ -89,9 +89,9 @@ where
         let holds = solution.places.map(|place| place == Place::Inside);
         let slides = sliding.map(|sign| sign.is_some());
         if let Some(index) = loads.shared(&columns.delassus, &holds, &slides) {
-            return Err(Fault::LoadNotUnique {
+            return Err(Fault::Mode(ModeFault::LoadNotUnique {
                 joint: list.get(index).map_or("", |first| first.interaction.name()),
-            });
+            }));
         }
         for (tracked, load) in list.iter_mut().zip(loads.sizes(&solution.efforts)) {
             tracked.status.exerted.capacity = tracked.capacity(Some(load));

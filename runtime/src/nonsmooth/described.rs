@@ -1,6 +1,6 @@
 //! The limits that a description has, and interactions of a run beside them.
 
-use crate::error::{Fault, Unheeding};
+use crate::error::{AssemblyFault, StartFault, Unheeding};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::Several;
@@ -99,7 +99,7 @@ pub(crate) fn check_limits<S: Real, M: Mechanism>(
     parameters: &M::Parameters<S>,
     constants: &M::Constants<S>,
     (time, bodies): (S, &M::State<S>),
-) -> Result<(), Fault> {
+) -> Result<(), AssemblyFault> {
     let described = M::limits_of(parameters, Interaction::<S, M>::of_description);
     let described: &[Interaction<S, M>] = described.as_ref();
     let scene = Scene::<S, M> {
@@ -122,7 +122,7 @@ pub(crate) fn check_limits<S: Real, M: Mechanism>(
         } else {
             continue;
         };
-        return Err(Fault::BeyondLimit {
+        return Err(AssemblyFault::BeyondLimit {
             joint: interaction.name(),
             value: value.to_f64(),
             limit: limit.to_f64(),
@@ -140,9 +140,9 @@ fn first_limited<M: Mechanism>() -> Option<&'static str> {
 }
 
 /// Refuses to leave out the limits of the description.
-pub(crate) fn refuse_limits<M: Mechanism>(by: Unheeding) -> Result<(), Fault> {
+pub(crate) fn refuse_limits<M: Mechanism>(by: Unheeding) -> Result<(), StartFault> {
     match first_limited::<M>() {
-        Some(joint) => Err(Fault::LimitsLeftOut { joint, by }),
+        Some(joint) => Err(StartFault::LimitsLeftOut { joint, by }),
         None => Ok(()),
     }
 }

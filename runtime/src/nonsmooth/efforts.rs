@@ -1,6 +1,6 @@
 //! Efforts within a step, where the modes are fixed.
 
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault, StepFault};
 use crate::formulation::{Formulation, Solution};
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
@@ -59,11 +59,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// The fault of an effort of this friction.
     pub(super) fn refused(&self, refusal: Refusal, time: S) -> Fault {
         match refusal {
-            Refusal::NotUnique(_) => Fault::NoUniqueFriction {
+            Refusal::NotUnique(_) => Fault::Mode(ModeFault::NoUniqueFriction {
                 joint: self.interaction.name(),
                 time: time.to_f64(),
-            },
-            Refusal::NotFinite => Fault::StateNotFinite,
+            }),
+            Refusal::NotFinite => Fault::Step(StepFault::StateNotFinite),
         }
     }
 }
@@ -81,7 +81,7 @@ pub(super) fn refused<S: Real, M: Mechanism, const K: usize>(
     let fault = list
         .get(index)
         .map(|tracked| tracked.refused(refusal, time));
-    fault.unwrap_or(Fault::StateNotFinite)
+    fault.unwrap_or(Fault::Step(StepFault::StateNotFinite))
 }
 
 /// Adds the efforts that hold, and those of what slides by its load, to a solution, which has those

@@ -3,7 +3,7 @@
 use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 
-use crate::error::Fault;
+use crate::error::{Fault, ReadingFault, StartFault};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
@@ -149,7 +149,7 @@ impl<M> JointQuantity<M> {
 pub(crate) fn named<S: Real, M: Mechanism>(
     list: &[Tracked<S, M>],
     handle: InteractionHandle<M>,
-) -> Result<(usize, &Tracked<S, M>), Fault> {
+) -> Result<(usize, &Tracked<S, M>), ReadingFault> {
     let mut all = list.iter().enumerate();
     match handle.which {
         Which::Listed(number, kind) => {
@@ -157,7 +157,7 @@ pub(crate) fn named<S: Real, M: Mechanism>(
             let interactions = given.clone().count();
             let named = given.nth(number);
             let named = named.filter(|(_, of)| Kind::of(&of.interaction) == kind);
-            named.ok_or(Fault::NoSuchInteraction {
+            named.ok_or(ReadingFault::NoSuchInteraction {
                 number,
                 interactions,
             })
@@ -168,7 +168,7 @@ pub(crate) fn named<S: Real, M: Mechanism>(
                 let is_of_it = matches!(quantity, Quantity::Joint(of) if *of == reading);
                 is_of_it && law.limits().is_some() && !tracked.interaction.is_dropped
             };
-            all.find(limits_it).ok_or(Fault::NoSuchLimits {
+            all.find(limits_it).ok_or(ReadingFault::NoSuchLimits {
                 joint: Quantity::<S>::Joint(reading).name::<M>(),
             })
         }
@@ -183,10 +183,10 @@ pub(crate) fn engage<S: Real, M: Mechanism>(
 ) -> Result<(), Fault> {
     let (place, tracked) = named(list, handle)?;
     if tracked.interaction.law.limits().is_some() {
-        return Err(Fault::MisplacedSetting {
+        return Err(Fault::Start(StartFault::MisplacedSetting {
             joint: tracked.interaction.name(),
             setting: if is_engaged { "engage" } else { "release" },
-        });
+        }));
     }
     if let Some(tracked) = list.get_mut(place) {
         tracked.status.engage(is_engaged);

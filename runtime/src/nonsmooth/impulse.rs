@@ -2,7 +2,7 @@
 
 use crate::constraints::newton::compliant;
 use crate::constraints::rows::Rows;
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault, StartFault};
 use crate::formulation::add;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::{Compliant, Mechanism};
@@ -33,11 +33,11 @@ pub(crate) fn impact<S: Real, M: Mechanism>(
     let joint = quantity.name::<M>();
     let is_coefficient = restitution >= S::zero() && restitution <= S::one();
     if !is_coefficient {
-        return Err(Fault::InteractionSetting {
+        return Err(Fault::Start(StartFault::InteractionSetting {
             joint,
             setting: "restitution",
             value: restitution.to_f64(),
-        });
+        }));
     }
     let read = &with_unit_orientations::<S, M>(state);
     let scene = Scene::<S, M> {
@@ -63,10 +63,10 @@ pub(crate) fn impact<S: Real, M: Mechanism>(
     let (compliance, free) = (dot(&loads, &column), dot(&loads, &free));
     let moves = compliance > S::constant(NO_FREEDOM) * free;
     if !moves {
-        return Err(Fault::NoMode {
+        return Err(Fault::Mode(ModeFault::NoMode {
             joint,
             time: time.to_f64(),
-        });
+        }));
     }
     let before = quantity.rate(&scene);
     let change = -(S::one() + restitution) * before;

@@ -3,7 +3,7 @@
 use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault, StartFault};
 use crate::math::scalar::Real;
 use crate::mechanism::handle::JointHandle;
 use crate::mechanism::kernels::Mechanism;
@@ -177,9 +177,9 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// - Moments do not count, unless the bearing has a length: [`Interaction::guide`].
     ///
     /// The load depends on the friction, so both are solved together. While it slides, an effort
-    /// that does not exist or is not unique is refused ([`Fault::NoUniqueFriction`], Painleve's
+    /// that does not exist or is not unique is refused ([`ModeFault::NoUniqueFriction`], Painleve's
     /// paradox). What can stick sticks. A joint whose reaction is not determined is refused
-    /// ([`Fault::LoadNotUnique`]).
+    /// ([`ModeFault::LoadNotUnique`]).
     ///
     /// ```
     /// # use holonom::prelude::*;
@@ -340,11 +340,11 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     }
 
     fn refused(&self, setting: &'static str, value: S) -> Result<(), Fault> {
-        Err(Fault::InteractionSetting {
+        Err(Fault::Start(StartFault::InteractionSetting {
             joint: self.name(),
             setting,
             value: value.to_f64(),
-        })
+        }))
     }
 
     /// Refuses settings of friction by load, and a joint whose load is not determined.
@@ -352,11 +352,11 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         let joint = self.name();
         let refuse = |setting, value| self.refused(setting, value);
         let Quantity::Joint(reading) = self.quantity else {
-            return Err(Fault::LoadNotUnique { joint });
+            return Err(Fault::Mode(ModeFault::LoadNotUnique { joint }));
         };
         let info = M::REPORT.joints.get(reading.joint());
         if info.is_none_or(|info| !info.undetermined.is_empty()) {
-            return Err(Fault::LoadNotUnique { joint });
+            return Err(Fault::Mode(ModeFault::LoadNotUnique { joint }));
         }
         if !friction.at_rest().is_finite() {
             return refuse("coefficient", friction.at_rest());
@@ -378,7 +378,10 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         let joint = self.name();
         let refuse = |setting, value| self.refused(setting, value);
         if let Some(setting) = self.misplaced {
-            return Err(Fault::MisplacedSetting { joint, setting });
+            return Err(Fault::Start(StartFault::MisplacedSetting {
+                joint,
+                setting,
+            }));
         }
         if let Quantity::Gap(_, plane) = self.quantity
             && !plane.is_finite()

@@ -1,6 +1,6 @@
 //! The loads of bearings, as functions of efforts: affine before their sizes are taken.
 
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault};
 use crate::formulation::{Formulation, Solution};
 use crate::math::scalar::Real;
 use crate::math::vec3::norm;
@@ -52,7 +52,7 @@ impl<S: Real, const K: usize> BearingLoads<S, K> {
         if F::Terms::COMPLIANT && !matches!(M::REPORT.rank, Rank::Decided { .. }) {
             let mut by_load = list.iter().filter(|tracked| tracked.bearing().is_some());
             let joint = by_load.next().map_or("", |first| first.interaction.name());
-            return Err(Fault::LoadNotUnique { joint });
+            return Err(Fault::Mode(ModeFault::LoadNotUnique { joint }));
         }
         setting.here(|scene| {
             let jacobian = M::jacobian(scene.constants, scene.time, scene.bodies);

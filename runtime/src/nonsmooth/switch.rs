@@ -1,6 +1,6 @@
 //! Impulses, where a mode ends or something else has changed.
 
-use crate::error::Fault;
+use crate::error::{AssemblyFault, Fault, ModeFault, StepFault};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Coordinates;
@@ -89,11 +89,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let (gap, is_lower) = limits.gap(value);
         let sign = if is_lower { S::one() } else { -S::one() };
         if gap < -near.held {
-            return Err(Fault::BeyondLimit {
+            return Err(Fault::Assembly(AssemblyFault::BeyondLimit {
                 joint: self.interaction.name(),
                 value: value.to_f64(),
                 limit: limits.bound(sign).to_f64(),
-            });
+            }));
         }
         let is_held = match status.mode {
             InteractionMode::AtLower => is_lower,
@@ -219,7 +219,12 @@ where
     F: Formulation<S>,
     C: Coordinates<M>,
 {
-    let Fault::BeyondLimit { joint, limit, .. } = fault else {
+    let Fault::Assembly(AssemblyFault::BeyondLimit {
+        joint,
+        value,
+        limit,
+    }) = fault
+    else {
         return fault;
     };
     let chosen = core::array::from_fn(|other| other == index);
@@ -228,7 +233,7 @@ where
     if is_free {
         return fault;
     }
-    against(setting, joint, limit).unwrap_or(fault)
+    against(setting, joint, value > limit).unwrap_or(fault)
 }
 
 /// The fault of a driver that moves a joint on against its limit: of the one that moves fastest.
@@ -236,7 +241,7 @@ where
 fn against<S, M, F, C>(
     setting: &Setting<'_, S, M, F, C>,
     joint: &'static str,
-    limit: f64,
+    is_upper: bool,
 ) -> Option<Fault>
 where
     S: Real,
@@ -260,11 +265,13 @@ where
         }
     }
     let driver = M::REPORT.joint_of(fastest.0)?;
-    (fastest.1 > S::zero()).then(|| Fault::DrivenAgainst {
-        joint,
-        driver,
-        limit,
-        time: setting.saddle.time.to_f64(),
+    (fastest.1 > S::zero()).then(|| {
+        Fault::Mode(ModeFault::DrivenAgainst {
+            joint,
+            driver,
+            is_upper,
+            time: setting.saddle.time.to_f64(),
+        })
     })
 }
 
@@ -314,7 +321,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         setting: &Setting<'_, S, M, F, C>,
         one: &Struck<S>,
     ) -> Result<(), Fault> {
-        let (Some(limits), Some(sign)) = (self.interaction.law.limits(), one.at_limit) else {
+        let (Some(_), Some(sign)) = (self.interaction.law.limits(), one.at_limit) else {
             return Ok(());
         };
         let approaches = -(sign * one.before);
@@ -323,8 +330,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         if !goes_on {
             return Ok(());
         }
-        let limit = limits.bound(sign).to_f64();
-        let driven = against(setting, self.interaction.name(), limit);
+        let driven = against(setting, self.interaction.name(), sign < S::zero());
         Err(driven.unwrap_or_else(|| no_mode(setting, self)))
     }
 }
@@ -387,7 +393,7 @@ where
     let first = (0..K).find(asked).and_then(|index| list.get(index));
     problem.solved().ok_or_else(|| {
         let fault = first.map(|tracked| no_mode(setting, tracked));
-        fault.unwrap_or(Fault::StateNotFinite)
+        fault.unwrap_or(Fault::Step(StepFault::StateNotFinite))
     })
 }
 
@@ -403,8 +409,8 @@ where
     F: Formulation<S>,
     C: Coordinates<M>,
 {
-    Fault::NoMode {
+    Fault::Mode(ModeFault::NoMode {
         joint: tracked.interaction.name(),
         time: setting.saddle.time.to_f64(),
-    }
+    })
 }

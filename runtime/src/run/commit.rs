@@ -1,7 +1,7 @@
 //! What becomes of a step: its end is corrected, shown to the monitor and accepted.
 
 use crate::dynamics::equations::Exchanged;
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::mechanism::at::{At, StateAt, at};
 use crate::mechanism::kernels::Mechanism;
@@ -88,10 +88,10 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if evaluations < budget.saturating_add(more) {
             return Ok(());
         }
-        Err(Fault::Budget {
+        Err(Fault::Step(StepFault::Budget {
             evaluations,
             joint: None,
-        })
+        }))
     }
 
     /// Corrects the end of the last step, and shows it to the monitor, with where a rule of higher

@@ -3,7 +3,7 @@
 use core::fmt::{self, Debug};
 
 use crate::dynamics::{Bodies, Solvable, State};
-use crate::error::{Fault, Unheeding};
+use crate::error::{Fault, ReadingFault, StartFault, Unheeding};
 use crate::integrate::{Scheme, StepWithin, System as _};
 use crate::math::scalar::{Real as _, Scalar as _};
 use crate::mechanism::orientations::with_unit_orientations;
@@ -68,8 +68,8 @@ impl<P: Solvable, K: Steps<P>> Stepper<P, K> {
     /// ```
     ///
     /// # Errors
-    /// As [`Stepper::step`], and [`Fault::LimitsLeftOut`] of limits and other interactions. State
-    /// and time are then as before.
+    /// As [`Stepper::step`], and [`StartFault::LimitsLeftOut`] of limits and other interactions.
+    /// State and time are then as before.
     pub fn step_dense(
         &mut self,
         state: &mut State<P>,
@@ -90,10 +90,10 @@ impl<P: Solvable, K: Steps<P>> Stepper<P, K> {
         dt: P::Number,
     ) -> Result<DenseStep<P, K>, Fault> {
         if let Some(first) = self.dynamics.tracked().first() {
-            return Err(Fault::LimitsLeftOut {
+            return Err(Fault::Start(StartFault::LimitsLeftOut {
                 joint: first.interaction.name(),
                 by: Unheeding::DenseStep,
-            });
+            }));
         }
         let start = self.time();
         self.checked(state, dt)?;
@@ -127,14 +127,14 @@ impl<P: Solvable, K: Steps<P>> Stepper<P, K> {
     /// before a projection, which the end of the step has.
     ///
     /// # Errors
-    /// [`Fault::OutsideTrajectory`].
+    /// [`ReadingFault::OutsideTrajectory`].
     pub fn within(&self, step: &DenseStep<P, K>, time: P::Number) -> Result<Bodies<P>, Fault> {
         if !(step.start <= time && time <= step.end) {
-            return Err(Fault::OutsideTrajectory {
+            return Err(Fault::Reading(ReadingFault::OutsideTrajectory {
                 time: time.to_f64(),
                 start: step.start.to_f64(),
                 end: step.end.to_f64(),
-            });
+            }));
         }
         let part = if time == step.end {
             P::Number::one()

@@ -1,7 +1,7 @@
 //! What a run knows of the cause of a fault.
 
 use crate::constraints::row_units::characteristic_length;
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault, StepFault};
 use crate::math::scalar::Real;
 use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
@@ -20,29 +20,34 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         /// by.
         const BEYOND: f64 = 1e6;
         let equations = self.march.equations();
-        let not_finite = matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite);
+        let not_finite = matches!(
+            fault,
+            Fault::Step(StepFault::RatesNotFinite { .. } | StepFault::StateNotFinite)
+        );
         if not_finite
             && let (Some(step), Some(rate)) =
                 (self.course.settings.fixed_step, equations.decay_rate())
             && step * rate > S::constant(STABLE)
         {
-            return Fault::StepTooLong {
+            return Fault::Step(StepFault::TooLong {
                 step: step.to_f64(),
                 rate: rate.to_f64(),
-            };
+            });
         }
         let (constants, state) = (equations.constants(), &last_good.bodies);
         // A step in which something turns by radians, or moves by lengths of the mechanism, is too
         // long whatever came of it: pivots of such numbers may vanish, too.
         let turned = match fault {
-            Fault::Singular { .. } => Some(BEYOND),
-            Fault::ZeroOrientation { .. } => self.course.gone.is_some().then_some(1.0),
+            Fault::Step(StepFault::Singular { .. }) => Some(BEYOND),
+            Fault::Step(StepFault::ZeroOrientation { .. }) => {
+                self.course.gone.is_some().then_some(1.0)
+            }
             // Points that an unstable method throws across each other, step by step.
-            Fault::SlidingLaw {
+            Fault::Mode(ModeFault::SlidingLaw {
                 expression: LENGTH, ..
-            } => Some(1.0),
+            }) => Some(1.0),
             // What a law of time pulls out of reach moves as fast, but is not open as wide.
-            Fault::NotConverged { residual, .. } => {
+            Fault::Step(StepFault::NotConverged { residual, .. }) => {
                 let length = characteristic_length::<S, M>(constants, state);
                 let is_wide = exceeds(S::constant(residual), BEYOND * length.to_f64());
                 let is_lost = is_wide || !M::REPORT.time.constraints;
@@ -55,9 +60,9 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if let (Some(turned), Some(step)) = (turned, self.course.settings.fixed_step)
             && exceeds(step * rate, turned)
         {
-            return Fault::Unstable {
+            return Fault::Step(StepFault::Unstable {
                 step: step.to_f64(),
-            };
+            });
         }
         equations.explained(fault, self.course.settings.absolute, last_good)
     }

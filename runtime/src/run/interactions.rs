@@ -45,16 +45,18 @@ where
     /// ```
     ///
     /// # Errors of the run
-    /// - [`Fault::InteractionSetting`](crate::Fault::InteractionSetting) and
-    ///   [`Fault::MisplacedSetting`](crate::Fault::MisplacedSetting) of what is not acceptable.
-    /// - [`Fault::BeyondLimit`](crate::Fault::BeyondLimit) of a start, a handler or a driver.
-    /// - [`Fault::NoMode`](crate::Fault::NoMode) and
-    ///   [`Fault::EndlessModes`](crate::Fault::EndlessModes) where no modes are found.
-    /// - [`Fault::NoUniqueFriction`](crate::Fault::NoUniqueFriction) and
-    ///   [`Fault::LoadNotUnique`](crate::Fault::LoadNotUnique) of friction by load.
-    /// - [`Fault::StepTooShort`](crate::Fault::StepTooShort) where the turns of an angle with
-    ///   limits cannot be followed.
-    /// - [`Fault::NoInteractions`](crate::Fault::NoInteractions) with
+    /// - [`StartFault::InteractionSetting`](crate::error::StartFault::InteractionSetting) and
+    ///   [`StartFault::MisplacedSetting`](crate::error::StartFault::MisplacedSetting) of what is
+    ///   not acceptable.
+    /// - [`AssemblyFault::BeyondLimit`](crate::error::AssemblyFault::BeyondLimit) of a start, a
+    ///   handler or a driver.
+    /// - [`ModeFault::NoMode`](crate::error::ModeFault::NoMode) and
+    ///   [`ModeFault::Endless`](crate::error::ModeFault::Endless) where no modes are found.
+    /// - [`ModeFault::NoUniqueFriction`](crate::error::ModeFault::NoUniqueFriction) and
+    ///   [`ModeFault::LoadNotUnique`](crate::error::ModeFault::LoadNotUnique) of friction by load.
+    /// - [`StepFault::TooShort`](crate::error::StepFault::TooShort) where the turns of an angle
+    ///   with limits cannot be followed.
+    /// - [`StartFault::NoInteractions`](crate::error::StartFault::NoInteractions) with
     ///   [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     #[must_use]
     pub fn interactions<const K: usize, const ALL: usize>(

@@ -10,7 +10,7 @@ use core::ops::{ControlFlow, RangeInclusive};
 use self::motion::Motion;
 use crate::constraints::projection::Projection;
 use crate::dynamics::{Bodies, Dynamics, Posed, Problem, Solvable, WithForces};
-use crate::error::{Fault, LeavesOut, SimulationError};
+use crate::error::{AnalysisFault, Fault, LeavesOut, SimulationError};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::{ForceLaw, Loads, NoForces};
@@ -44,7 +44,7 @@ use crate::state::vector::{Array, StateParts};
 /// among [`KinematicReport::warnings`], with its joint. The motion goes straight on through it. A
 /// report that falls on such a configuration, or nearer to it than the digits of a pose tell, has
 /// position and velocity. Accelerations, reactions and efforts are refused there by the sample, by
-/// [`Fault::Singular`]: what the motion takes has no limit.
+/// [`StepFault::Singular`](crate::error::StepFault::Singular): what the motion takes has no limit.
 ///
 /// The evaluation follows the formulation: [`StandardLagrange`](crate::StandardLagrange) where the
 /// equations are independent; where some are redundant, [`Penalty`](crate::Penalty) or
@@ -187,12 +187,13 @@ where
     /// at start and end.
     ///
     /// # Errors
-    /// Time, cause and last good state where the analysis cannot go on: [`Fault::NotDriven`] for a
-    /// mechanism with fewer equations than velocities, [`Fault::Undetermined`] where they leave a
-    /// motion free all the same, [`Fault::NotConverged`] where no pose is found,
-    /// [`Fault::BeyondLimit`] of a pose beyond a limit of the description, and what an
-    /// evaluation or a run may refuse. The state is of zeros where a parameter was refused and no
-    /// initial state had been given.
+    /// Time, cause and last good state where the analysis cannot go on:
+    /// [`AnalysisFault::NotDriven`] for a mechanism with fewer equations than velocities,
+    /// [`AnalysisFault::MotionLeftFree`] where they leave a motion free all the same,
+    /// [`StepFault::NotConverged`](crate::error::StepFault::NotConverged) where no pose is found,
+    /// [`AssemblyFault::BeyondLimit`](crate::error::AssemblyFault::BeyondLimit) of a pose beyond a
+    /// limit of the description, and what an evaluation or a run may refuse. The state is of zeros
+    /// where a parameter was refused and no initial state had been given.
     pub fn run<O, R>(
         &self,
         interval: RangeInclusive<S>,
@@ -238,7 +239,9 @@ where
         bodies_alone::<M>(LeavesOut::Kinematics)?;
         let degrees_of_freedom = M::REPORT.degrees_of_freedom;
         if degrees_of_freedom > 0 {
-            return Err(Fault::NotDriven { degrees_of_freedom });
+            return Err(Fault::Analysis(AnalysisFault::NotDriven {
+                degrees_of_freedom,
+            }));
         }
         let mut motion = Motion::new(dynamics, self.projection, start, &state);
         let mut found = motion.begin(start, state)?;

@@ -5,7 +5,7 @@ use core::ops::RangeInclusive;
 
 use crate::dynamics::{Bodies, Carrying, Dynamics, Posed, Solvable};
 use crate::error::setting::interval;
-use crate::error::{Fault, SimulationError};
+use crate::error::{Fault, SimulationError, StartFault};
 use crate::integrate::{Integrator, Method};
 use crate::math::scalar::{Real, Scalar as _};
 use crate::measure::load::Led;
@@ -133,7 +133,7 @@ where
     /// have been called at its start.
     ///
     /// # Errors
-    /// Those of [`Simulation::run`](crate::Simulation::run) at a start. [`Fault::NotLed`] of a
+    /// Those of [`Simulation::run`](crate::Simulation::run) at a start. [`StartFault::NotLed`] of a
     /// simulation that is [`verified`](crate::Simulation::verified), keeps checkpoints or records a
     /// trajectory.
     pub fn begin(self, interval: RangeInclusive<P::Number>) -> BeginResult<'a, P, I, H>
@@ -158,7 +158,7 @@ where
             asked.and_then(|()| setup.prepared(Led(self.forces), (list, is_bare), plan, &mut at));
         let prepared = prepared.map_err(|fault| failed(fault, &at))?;
         if setup.is_verified || prepared.course.hybrid.is_observed() {
-            return Err(failed(Fault::NotLed, &at));
+            return Err(failed(Fault::Start(StartFault::NotLed), &at));
         }
         let mut run = Run {
             march: March::new(prepared.equations, prepared.integrator),
@@ -252,12 +252,12 @@ where
     /// ```
     ///
     /// # Errors
-    /// As [`Run::advance`]; [`Fault::Interval`] of a time before that which was reached.
+    /// As [`Run::advance`]; [`StartFault::Interval`] of a time before that which was reached.
     pub fn advance_to(&mut self, time: P::Number) -> Result<Reached, Failed<P>> {
         let at = self.way.at.time;
         // One that is no number is not after it either.
         if time.partial_cmp(&at).is_none_or(core::cmp::Ordering::is_lt) {
-            return Err(failed(interval(at, time), &self.way.at));
+            return Err(failed(interval(at, time).into(), &self.way.at));
         }
         let time = time.min(self.course.hybrid.end);
         loop {

@@ -27,7 +27,7 @@
 //! and velocity are near the prediction: near a branch, another one has other velocities.
 //! Gruebler's count says little where equations are redundant. So at every pose a trial motion is
 //! projected four times onto `D u = 0`. What is left of its energy separates a missing driver or a
-//! singular configuration (`Fault::Undetermined`) from a stiff one.
+//! singular configuration (`AnalysisFault::MotionLeftFree`) from a stiff one.
 //!
 //! `Recorder` builds a line in memory and writes it by one call, so that only the last line can be
 //! torn. After a failed write it refuses further lines. It knows a mechanism by its report alone.

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use crate::error::setting::interval;
 use crate::error::setting::positive;
-use crate::error::{Fault, RunError, SimulationError};
+use crate::error::{Fault, RunError, SimulationError, StartFault, StepFault};
 use crate::math::scalar::Real;
 
 /// When a run shows its state to the observer; the start and the end are always among the times.
@@ -173,10 +173,10 @@ impl<S: Real> Schedule<S> {
             positive("reporting step", dt)?;
             let latest = if end.abs() > start.abs() { end } else { start };
             if dt < round_off(latest) {
-                return Err(Fault::StepTooShort {
+                return Err(Fault::Step(StepFault::TooShort {
                     step: dt.to_f64(),
                     time: latest.to_f64(),
-                });
+                }));
             }
         }
         Ok(Self {
@@ -265,7 +265,7 @@ fn round_off<S: Real>(time: S) -> S {
 }
 
 /// Refuses an interval whose ends are not finite or not in order.
-pub(crate) fn check_interval<S: Real>(start: S, end: S) -> Result<(), Fault> {
+pub(crate) fn check_interval<S: Real>(start: S, end: S) -> Result<(), StartFault> {
     if start.is_finite() && end.is_finite() && start <= end {
         Ok(())
     } else {

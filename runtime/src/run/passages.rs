@@ -1,7 +1,7 @@
 //! What a run does where lengths pass through zero: see `passing.rs`.
 
 use crate::constraints::extent::largest;
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault};
 use crate::math::scalar::Real;
 use crate::math::vec3::minus;
 use crate::mechanism::at::{At, StateAt};
@@ -184,9 +184,9 @@ pub(super) const LENGTH: &str = "length";
 /// A force that leads its points together again and again.
 #[cold]
 fn holds<S: Real, M: Mechanism>(place: usize, time: S) -> Fault {
-    Fault::SlidingLaw {
+    Fault::Mode(ModeFault::SlidingLaw {
         law: M::SEPARATIONS.get(place).copied().unwrap_or_default(),
         expression: LENGTH,
         time: time.to_f64(),
-    }
+    })
 }

@@ -4,7 +4,7 @@ use core::fmt::Debug;
 use core::ops::RangeInclusive;
 
 use crate::dynamics::Iterations;
-use crate::error::Fault;
+use crate::error::CheckpointFault;
 use crate::integrate::{Counts, Memory, Reader};
 use crate::math::scalar::Real;
 use crate::mechanism::at::StateAt;
@@ -81,13 +81,13 @@ pub(crate) trait Plan<S: Real, M: Mechanism> {
     /// Where it goes on, if it was begun before, by the same method and formulation.
     ///
     /// # Errors
-    /// [`Fault::Checkpoint`] of a run by others.
+    /// It was begun by others.
     fn past<F: Debug, I: Debug>(
         &self,
         integrator: &I,
         formulation: &F,
         joints: bool,
-    ) -> Result<Option<Past<'_, S, M>>, Fault>;
+    ) -> Result<Option<Past<'_, S, M>>, CheckpointFault>;
 }
 
 /// A run from the start, over an interval (s).
@@ -103,7 +103,7 @@ impl<S: Real, M: Mechanism> Plan<S, M> for Planned<S> {
         _integrator: &I,
         _formulation: &F,
         _joints: bool,
-    ) -> Result<Option<Past<'_, S, M>>, Fault> {
+    ) -> Result<Option<Past<'_, S, M>>, CheckpointFault> {
         Ok(None)
     }
 }

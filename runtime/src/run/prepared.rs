@@ -4,7 +4,7 @@ use crate::assembly::assembled;
 use crate::assembly::consistent_start::check_start;
 use crate::constraints::row_units::characteristic_length;
 use crate::dynamics::{Carrying, Dynamics, Posed, Solvable};
-use crate::error::Fault;
+use crate::error::{Fault, StartFault};
 use crate::formulation::Formulation;
 use crate::integrate::{Integrator, Method};
 use crate::math::scalar::Real;
@@ -120,9 +120,9 @@ where
         check_interval(reached, end)?;
         match self.breaks.iter().find(|instant| !instant.is_finite()) {
             None => Ok(()),
-            Some(instant) => Err(Fault::BreakNotFinite {
+            Some(instant) => Err(Fault::Start(StartFault::BreakNotFinite {
                 instant: instant.to_f64(),
-            }),
+            })),
         }
     }
 

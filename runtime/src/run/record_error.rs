@@ -50,15 +50,8 @@ impl fmt::Debug for RecordError {
     }
 }
 
-impl core::error::Error for RecordError {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Io(error) => Some(error),
-            Self::Evaluation(fault) => Some(fault),
-            Self::Torn | Self::NotFinite { .. } | Self::OtherMechanism => None,
-        }
-    }
-}
+/// No source: the sentence has that of the cause, and a chain of sources would say it twice.
+impl core::error::Error for RecordError {}
 
 impl From<io::Error> for RecordError {
     fn from(error: io::Error) -> Self {

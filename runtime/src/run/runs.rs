@@ -3,7 +3,7 @@
 use core::ops::{ControlFlow, RangeInclusive};
 
 use crate::dynamics::{Carrying, Dynamics, Posed, Solvable};
-use crate::error::Fault;
+use crate::error::{Fault, StartFault};
 use crate::formulation::Formulation;
 use crate::integrate::{Integrator, Method};
 use crate::math::scalar::Real;
@@ -227,7 +227,7 @@ where
             &self.formulation,
             P::Coordinates::IS_RELATIVE,
         );
-        let report = past.and_then(|past| {
+        let report = past.map_err(Fault::from).and_then(|past| {
             let plan = (interval, reporting, past.as_ref());
             self.attempt(forces, happenings, plan, &mut observe, &mut last_good)
         });
@@ -253,7 +253,7 @@ where
             integrator, given, ..
         } = prepared;
         if is_unverifiable {
-            return Err(Fault::NotVerified);
+            return Err(Fault::Start(StartFault::NotVerified));
         }
         let schedule = Schedule::new(start, end, reporting)?;
         let schedule = schedule.after(past.map_or(0, |past| past.progress.reports));

@@ -7,7 +7,7 @@ use core::ops::Deref;
 use nalgebra::Vector3;
 
 use crate::dynamics::evaluate::Evaluate;
-use crate::error::Fault;
+use crate::error::{Fault, ReadingFault};
 use crate::math::scalar::Real;
 use crate::measure::reaction::Wrench;
 use crate::measure::view::View;
@@ -101,39 +101,40 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// What a joint exerts on one of its bodies, see [`View::reaction`].
     ///
     /// # Errors
-    /// The fault of the evaluation; [`Fault::NotBetween`] for a body that is not of the joint.
+    /// The fault of the evaluation;
+    /// [`ReadingFault::NotBetween`] for a body that is not of the joint.
     pub fn reaction<J>(
         &self,
         joint: JointHandle<M, J>,
         body: BodyHandle<M>,
     ) -> Result<Wrench<S>, Fault> {
         let multipliers = &self.evaluation()?.multipliers;
-        self.view.reaction(multipliers, joint, body)
+        Ok(self.view.reaction(multipliers, joint, body)?)
     }
 
     /// What a joint exerts on the body at a place of its `between`, see
     /// [`View::reaction_on_place`].
     ///
     /// # Errors
-    /// The fault of the evaluation; [`Fault::NoSuchPlace`] for a place that `between` does not
-    /// have.
+    /// The fault of the evaluation;
+    /// [`ReadingFault::NoSuchPlace`] for a place that `between` does not have.
     pub fn reaction_on_place<J>(
         &self,
         joint: JointHandle<M, J>,
         place: usize,
     ) -> Result<Wrench<S>, Fault> {
         let multipliers = &self.evaluation()?.multipliers;
-        self.view.reaction_on_place(multipliers, joint, place)
+        Ok(self.view.reaction_on_place(multipliers, joint, place)?)
     }
 
     /// The effort of a driver (N for a length, N m for an angle), see [`View::driving_effort`].
     ///
     /// # Errors
-    /// The fault of the evaluation; [`Fault::NoEffort`] where the driver's equation was left out as
-    /// redundant.
+    /// The fault of the evaluation;
+    /// [`ReadingFault::NoEffort`] where the driver's equation was left out as redundant.
     pub fn driving_effort<J: Driven>(&self, joint: JointHandle<M, J>) -> Result<S, Fault> {
         let multipliers = &self.evaluation()?.multipliers;
-        self.view.driving_effort(multipliers, joint)
+        Ok(self.view.driving_effort(multipliers, joint)?)
     }
 
     /// Accelerations `u'` (m/s^2 global; rad/s^2 principal body axes), one per velocity. By handle
@@ -211,8 +212,8 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// more in the next one after an impulse.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
-    pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, Fault> {
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`].
+    pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, ReadingFault> {
         Ok(self.tracked(interaction)?.told_mode())
     }
 
@@ -248,7 +249,8 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The effort of an interaction (N m, N) along its quantity, positive upwards. One evaluation.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`], the fault of the evaluation.
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`], the fault of the
+    /// evaluation.
     pub fn effort(&self, interaction: InteractionHandle<M>) -> Result<S, Fault> {
         let (place, _) = named(self.dynamics.interactions(), interaction)?;
         let mut effort = S::zero();
@@ -261,12 +263,18 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The last impulse of an interaction in the run so far, if there was one.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
-    pub fn impact(&self, interaction: InteractionHandle<M>) -> Result<Option<Impact<S>>, Fault> {
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`].
+    pub fn impact(
+        &self,
+        interaction: InteractionHandle<M>,
+    ) -> Result<Option<Impact<S>>, ReadingFault> {
         Ok(self.tracked(interaction)?.status.impact)
     }
 
-    fn tracked(&self, interaction: InteractionHandle<M>) -> Result<&'a Tracked<S, M>, Fault> {
+    fn tracked(
+        &self,
+        interaction: InteractionHandle<M>,
+    ) -> Result<&'a Tracked<S, M>, ReadingFault> {
         let (_, tracked) = named(self.dynamics.interactions(), interaction)?;
         Ok(tracked)
     }

@@ -176,7 +176,7 @@ where
 
     /// Accepts a start that violates the constraints by more than four digits, in positions or
     /// velocities, which is refused with
-    /// [`Fault::InconsistentStart`](crate::Fault::InconsistentStart) otherwise.
+    /// [`StartFault::Inconsistent`](crate::error::StartFault::Inconsistent) otherwise.
     #[must_use]
     pub fn inconsistent_start(mut self) -> Self {
         self.setup.accepts_any_start = true;
@@ -270,7 +270,7 @@ where
     ///
     /// It is called at trial states, for times that go back and forth, and may remember nothing:
     /// what gives two answers for one time and state ends a run with
-    /// [`Fault::TwoAnswers`](crate::Fault::TwoAnswers). A
+    /// [`StepFault::TwoAnswers`](crate::error::StepFault::TwoAnswers). A
     /// controller with memory is called by [`Simulation::every_period`].
     ///
     /// The evaluation is then done in its parts instead of fused, at a higher cost.

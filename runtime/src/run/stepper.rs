@@ -7,8 +7,8 @@ use crate::dynamics::{
     Bodies, Dynamics, Iterations, Posed, Problem, Solvable, State, UnderWay, WithCoordinates,
     WithForces, WithInteractions, WithLaw,
 };
-use crate::error::Fault;
 use crate::error::setting::positive;
+use crate::error::{Fault, ParameterError, StepFault};
 use crate::formulation::Formulation;
 use crate::integrate::{OneStep, Scheme, System as _};
 use crate::math::clock::Clock;
@@ -261,7 +261,7 @@ impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
     ///
     /// # Errors
     /// A parameter that is not acceptable; the former ones then stay.
-    /// [`Fault::InteractionSetting`] of a limit.
+    /// [`StartFault::InteractionSetting`](crate::error::StartFault::InteractionSetting) of a limit.
     pub fn update(&mut self, mechanism: &P::Mechanism) -> Result<(), Fault> {
         self.dynamics.update(mechanism)?;
         self.dynamics.renew_limits()
@@ -273,7 +273,10 @@ impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
     /// # Errors
     /// An input that is not finite; the former ones then stay.
     #[inline]
-    pub fn set_inputs(&mut self, inputs: &InputsOf<P::Mechanism, P::Number>) -> Result<(), Fault> {
+    pub fn set_inputs(
+        &mut self,
+        inputs: &InputsOf<P::Mechanism, P::Number>,
+    ) -> Result<(), ParameterError> {
         self.dynamics.set_inputs(inputs)
     }
 
@@ -342,7 +345,7 @@ impl<P: Solvable, K: Steps<P>> Stepper<P, K> {
     /// most 8, and 4 for each interaction. So the cost is bounded.
     ///
     /// The steps add up to the time without a growing error. A mechanism with laws of time refuses
-    /// a step below the resolution of the time, [`Fault::StepTooShort`]; without them the time does
+    /// a step below the resolution of the time, [`StepFault::TooShort`]; without them the time does
     /// not matter.
     ///
     /// # Errors
@@ -453,10 +456,10 @@ pub(crate) fn end_of_step<S: Real, M: Mechanism>(
 ) -> Result<Clock<S>, Fault> {
     let time = clock.time();
     if positive("step", dt)? < time.ulp() && M::REPORT.time.is_anywhere() {
-        return Err(Fault::StepTooShort {
+        return Err(Fault::Step(StepFault::TooShort {
             step: dt.to_f64(),
             time: time.to_f64(),
-        });
+        }));
     }
     Ok(clock.after(dt))
 }

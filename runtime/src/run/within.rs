@@ -2,7 +2,7 @@
 //! low order misses.
 
 use crate::dynamics::equations::Equations;
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
@@ -135,7 +135,7 @@ impl<S: Real, M: Mechanism> Within<'_, S, M> {
                 let at = (time, &state);
                 Some(nearness(self.monitor, equations, at, self.asked, None))
             }
-            Err(Fault::Singular { .. }) => Some(Nearness::singular(self.asked)),
+            Err(Fault::Step(StepFault::Singular { .. })) => Some(Nearness::singular(self.asked)),
             Err(_) => None,
         }
     }

@@ -15,7 +15,7 @@ use nalgebra::SVector;
 
 use super::Differentiable;
 use crate::dynamics::{Dynamics, Posed, Problem};
-use crate::error::{Fault, LeavesOut, Unheeding};
+use crate::error::{Fault, LeavesOut, StartFault, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::{Forward, Lifted, lifted};
 use crate::independent::{Along, IndependentCoordinates};
@@ -204,10 +204,11 @@ where
     ///
     /// # Errors
     /// - What a step refuses, and [`IndependentCoordinates::mass`].
-    /// - [`Fault::RatesNotFinite`]: a cost or its gradient is not finite.
-    /// - [`Fault::StateLeftOut`] of states of the user's own, [`Fault::SwitchLeftOut`] of laws that
-    ///   switch, [`Fault::LimitsLeftOut`] of limits in the description, unless the space is
-    ///   [`without_limits`](IndependentCoordinates::without_limits).
+    /// - [`StepFault::RatesNotFinite`](crate::error::StepFault::RatesNotFinite): a cost or its
+    ///   gradient is not finite.
+    /// - [`StartFault::StateLeftOut`] of states of the user's own, [`StartFault::SwitchLeftOut`] of
+    ///   laws that switch, [`StartFault::LimitsLeftOut`] of limits in the description, unless the
+    ///   space is [`without_limits`](IndependentCoordinates::without_limits).
     pub fn gradient<const U: usize, const P: usize>(
         &self,
         start: &M::JointState<S>,
@@ -221,7 +222,7 @@ where
             refuse_limits::<M>(Unheeding::Derivatives)?;
         }
         if let Some(switch) = M::SWITCHES.first() {
-            return Err(Fault::SwitchLeftOut { law: switch.law });
+            return Err(Fault::Start(StartFault::SwitchLeftOut { law: switch.law }));
         }
         let states = self.states(start, held, controls)?;
         let carrying = self.formulation.carrying();

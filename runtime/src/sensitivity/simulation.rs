@@ -6,7 +6,7 @@ use core::ops::RangeInclusive;
 use super::Sensitivities;
 use super::start::check_derivatives;
 use crate::dynamics::{Bodies, Posed, Problem, Solvable, WithCoordinates, WithLaw};
-use crate::error::{Fault, SimulationError, Unheeding};
+use crate::error::{Fault, SimulationError, StartFault, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::Forward;
 use crate::integrate::Method;
@@ -136,10 +136,11 @@ where
     /// derivatives.
     ///
     /// # Errors
-    /// As [`Simulation::run`]; [`Fault::StartOpens`](crate::Fault::StartOpens) where the
-    /// derivatives of the start violate those of the constraints;
-    /// [`Fault::SwitchLeftOut`] where a law switches; [`Fault::LimitsLeftOut`] of limits in the
-    /// description, unless [`SensitivitySimulation::without_limits`] is said.
+    /// As [`Simulation::run`];
+    /// [`StartFault::DirectionOpens`] where the derivatives of the start violate those of the
+    /// constraints; [`StartFault::SwitchLeftOut`] where a law switches;
+    /// [`StartFault::LimitsLeftOut`] of limits in the description, unless
+    /// [`SensitivitySimulation::without_limits`] is said.
     pub fn run<O, R>(
         &self,
         interval: RangeInclusive<S>,
@@ -154,20 +155,16 @@ where
         let [start, end] = [from, to].map(Forward::fixed);
         let constants = M::prepare(&self.parameters);
         let state = self.start;
+        let time = from.to_f64();
+        let refused = |fault: Fault| R::Error::from(SimulationError { time, fault, state });
         if let Some(switch) = M::SWITCHES.first() {
-            let (time, fault) = (from.to_f64(), Fault::SwitchLeftOut { law: switch.law });
-            return Err(SimulationError { time, fault, state }.into());
+            let fault = StartFault::SwitchLeftOut { law: switch.law };
+            return Err(refused(fault.into()));
         }
-        if !self.passes_limits
-            && let Err(fault) = refuse_limits::<M>(Unheeding::Derivatives)
-        {
-            let time = from.to_f64();
-            return Err(SimulationError { time, fault, state }.into());
+        if !self.passes_limits {
+            refuse_limits::<M>(Unheeding::Derivatives).map_err(|fault| refused(fault.into()))?;
         }
-        check_derivatives::<M, K, S>(&constants, start, &state).map_err(|fault| {
-            let time = from.to_f64();
-            R::Error::from(SimulationError { time, fault, state })
-        })?;
+        check_derivatives::<M, K, S>(&constants, start, &state).map_err(refused)?;
         let reporting = match reporting {
             Reporting::Every(interval) => Reporting::Every(Forward::fixed(interval)),
             Reporting::EveryStep => Reporting::EveryStep,

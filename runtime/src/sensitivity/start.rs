@@ -2,7 +2,7 @@
 
 use core::iter::zip;
 
-use crate::error::Fault;
+use crate::error::{Fault, StartFault};
 use crate::forward::Forward;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
@@ -66,11 +66,11 @@ pub(super) fn check_derivatives<M: Mechanism, const K: usize, S: Real>(
                 let is_closed = slope.abs() <= S::constant(INEXACT).fused(size, floor);
                 // NaN is refused, too.
                 if !is_closed {
-                    return Err(Fault::StartOpens {
+                    return Err(Fault::Start(StartFault::DirectionOpens {
                         joint: M::REPORT.joint_of(row).unwrap_or_default(),
                         direction,
                         violation: slope.to_f64(),
-                    });
+                    }));
                 }
             }
         }

@@ -9,7 +9,7 @@ use super::followed::bodies_within;
 use super::marching::{Advanced, Marching, Settings};
 use crate::dynamics::equations::Equations;
 use crate::dynamics::{Dynamics, Solvable, State};
-use crate::error::Fault;
+use crate::error::{Fault, StartFault};
 use crate::integrate::{
     Advance as _, Counts, Integration as _, Integrator, Memory, Reader, System as _, TimeSpan,
 };
@@ -326,10 +326,10 @@ where
 /// No integration was begun: its interval has no length.
 #[cold]
 fn not_begun() -> Fault {
-    Fault::Interval {
+    Fault::Start(StartFault::Interval {
         start: 0.0,
         end: 0.0,
-    }
+    })
 }
 
 /// The state of its elements, if there are as many.

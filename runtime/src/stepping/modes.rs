@@ -2,7 +2,7 @@
 
 use super::guard::{Guard, Guards, Visit};
 use crate::dynamics::evaluate::Evaluate;
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::scene::Scene;
@@ -72,10 +72,10 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
         };
         let value = tracked.reading(&scene);
         if value.to_f64().is_nan() {
-            return Err(Fault::EventNotANumber {
+            return Err(Fault::Step(StepFault::EventNotANumber {
                 event: tracked.interaction.name(),
                 time: time.to_f64(),
-            });
+            }));
         }
         Ok(value)
     }

@@ -1,6 +1,6 @@
 //! The sign of a reading over a run.
 
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::integrate::Memory;
 use crate::math::scalar::Real;
 
@@ -148,10 +148,10 @@ impl<S: Real> Watch<S> {
     /// A reading, or the fault of one that is not a number.
     pub(crate) fn checked(&self, time: S, reading: S) -> Result<S, Fault> {
         if reading.to_f64().is_nan() {
-            return Err(Fault::EventNotANumber {
+            return Err(Fault::Step(StepFault::EventNotANumber {
                 event: self.name,
                 time: time.to_f64(),
-            });
+            }));
         }
         Ok(reading)
     }
@@ -218,11 +218,11 @@ impl<S: Real> Watch<S> {
         let at_once = at_once || self.is_at_zero();
         self.at_once = if at_once { self.at_once + 1 } else { 0 };
         if self.at_once >= AT_ONCE {
-            return Err(Fault::Chattering {
+            return Err(Fault::Step(StepFault::Chattering {
                 event: self.name,
                 events: self.at_once + 1,
                 time: time.to_f64(),
-            });
+            }));
         }
         self.last = Some(time);
         if self.is_at_zero() {

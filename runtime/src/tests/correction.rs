@@ -1,6 +1,7 @@
 //! The correction of a state onto the constraints.
 
 use super::rod::{ROD, Rod, rod};
+use crate::error::StepFault;
 use crate::state::State;
 use crate::*;
 
@@ -65,6 +66,9 @@ fn what_does_not_converge_leaves_the_state() {
     let error = hasty
         .correct::<Rod>(&constants, 0.0, &mut state)
         .unwrap_err();
-    assert!(matches!(error, Fault::NotConverged { iterations: 1, .. }));
+    assert!(matches!(
+        error,
+        Fault::Step(StepFault::NotConverged { iterations: 1, .. })
+    ));
     assert_eq!(state, before);
 }

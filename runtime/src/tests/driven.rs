@@ -5,6 +5,7 @@ use core::ops::ControlFlow;
 
 use super::crank::{CRANK, Crank, MOTOR, crank};
 use super::rod::{GRAVITY, Rod, rod};
+use crate::error::{AnalysisFault, StepFault};
 use crate::state::State;
 use crate::*;
 
@@ -125,7 +126,10 @@ fn a_mechanism_that_is_not_driven_is_refused() {
         .run(0.0..=1.0, every(0.1), proceed)
         .unwrap_err();
     let degrees_of_freedom = 1;
-    assert_eq!(error.fault, Fault::NotDriven { degrees_of_freedom });
+    assert_eq!(
+        error.fault,
+        Fault::Analysis(AnalysisFault::NotDriven { degrees_of_freedom })
+    );
     assert_eq!(error.state, rod.described_state::<f64>().unwrap());
     let bad = Rod { mass: 0.0 };
     let error = KinematicAnalysis::new(&bad, StandardLagrange)
@@ -150,7 +154,7 @@ fn a_law_beyond_the_numbers_ends_the_analysis_at_the_last_good_pose() {
         .initial_state(nan)
         .run(0.0..=10.0, every(5.0), proceed)
         .unwrap_err();
-    assert_eq!(error.fault, Fault::StateNotFinite);
+    assert_eq!(error.fault, Fault::Step(StepFault::StateNotFinite));
 }
 
 #[test]

@@ -1,10 +1,10 @@
-//! What a fault says, word for word.
+//! What a fault says, word for word, and what is shown of it.
 
 extern crate std;
 
-use crate::error::LeavesOut;
 use crate::error::ParameterFault;
 use crate::error::Quantity;
+use crate::error::{AnalysisFault, AssemblyFault, LeavesOut, ReadingFault, StartFault, StepFault};
 use crate::state::State;
 use core::ops::ControlFlow;
 use std::boxed::Box;
@@ -15,32 +15,32 @@ use std::string::ToString;
 use super::rod::{PIVOT, ROD, Rod, rod};
 use crate::*;
 
-fn not_converged(iterations: usize, joint: Option<&'static str>, alpha: Option<f64>) -> Fault {
-    Fault::NotConverged {
+fn not_converged(iterations: u32, joint: Option<&'static str>, alpha: Option<f64>) -> Fault {
+    Fault::Step(StepFault::NotConverged {
         iterations,
         residual: 3.2e-2,
         joint,
         alpha,
-    }
+    })
 }
 
 fn underflow(is_least: bool, joint: Option<&'static str>, resolution: Option<f64>) -> Fault {
-    Fault::StepSizeUnderflow {
+    Fault::Step(StepFault::SizeUnderflow {
         step: 4e-16,
         is_least,
         joint,
         resolution,
-    }
+    })
 }
 
 #[test]
 fn a_state_that_does_not_satisfy_the_constraints_is_told_by_how_much() {
     let says = |quantity: Quantity, message: &str| {
-        let fault = Fault::NotAssembled {
+        let fault = Fault::Analysis(AnalysisFault::NotAssembled {
             joint: "pin",
             quantity,
             violation: 0.05,
-        };
+        });
         assert_eq!(fault.to_string(), message);
     };
     says(
@@ -81,11 +81,13 @@ fn a_step_size_that_vanishes_names_a_cause() {
 
 #[test]
 fn a_start_is_refused_with_what_helps() {
-    let open = |is_final| Fault::InconsistentStart {
-        joint: "hook",
-        quantity: Quantity::Length,
-        violation: 0.01,
-        is_final,
+    let open = |is_final| {
+        Fault::Start(StartFault::Inconsistent {
+            joint: "hook",
+            quantity: Quantity::Length,
+            violation: 0.01,
+            is_final,
+        })
     };
     assert_eq!(
         open(false).to_string(),
@@ -99,9 +101,11 @@ fn a_start_is_refused_with_what_helps() {
 
 #[test]
 fn what_cannot_be_set_is_told_with_what_can() {
-    let carries_nothing = |instead| Fault::CarriesNothing {
-        joint: "pin",
-        instead,
+    let carries_nothing = |instead| {
+        Fault::Assembly(AssemblyFault::CarriesNothing {
+            joint: "pin",
+            instead,
+        })
     };
     for (fault, message) in [
         (
@@ -113,7 +117,7 @@ fn what_cannot_be_set_is_told_with_what_can() {
             "joint `pin` carries no body in the spanning tree",
         ),
         (
-            Fault::NotFree { joint: "pin" },
+            Fault::Assembly(AssemblyFault::NotFree { joint: "pin" }),
             "what is to be set of joint `pin` is no motion that its equations leave free",
         ),
     ] {
@@ -138,13 +142,17 @@ fn who_leaves_states_out_says_so() {
         ),
     ] {
         let state = "current";
-        assert_eq!(Fault::StateLeftOut { state, by }.to_string(), message);
+        assert_eq!(
+            Fault::Start(StartFault::StateLeftOut { state, by }).to_string(),
+            message
+        );
     }
 }
 
 #[test]
 fn one_is_singular_and_more_are_plural() {
-    let not_driven = |degrees_of_freedom| Fault::NotDriven { degrees_of_freedom };
+    let not_driven =
+        |degrees_of_freedom| Fault::Analysis(AnalysisFault::NotDriven { degrees_of_freedom });
     for (fault, message) in [
         (
             not_converged(1, Some("driver"), None),
@@ -178,59 +186,61 @@ fn one_is_singular_and_more_are_plural() {
 
 #[test]
 fn numbers_are_those_of_a_person() {
-    let setting = |value| Fault::Setting {
-        name: "step",
-        value,
+    let setting = |value| {
+        Fault::Start(StartFault::Setting {
+            name: "step",
+            value,
+        })
     };
-    let interval = |start, end| Fault::Interval { start, end };
+    let interval = |start, end| Fault::Start(StartFault::Interval { start, end });
     for (fault, message) in [
         (setting(-1.0), "`step` must be finite and positive, not -1"),
         (setting(-0.0), "`step` must be finite and positive, not 0"),
         (
-            Fault::Singular {
+            Fault::Step(StepFault::Singular {
                 joint: 0,
                 name: "pivot",
                 relative_pivot: 0.0,
-            },
+            }),
             "the constraints depend on each other at joint `pivot` (relative pivot 0)",
         ),
         (
-            Fault::StepTooShort {
+            Fault::Step(StepFault::TooShort {
                 step: 1e-20,
                 time: 0.125,
-            },
+            }),
             "a step of 1e-20 s is below the resolution of the time 0.125 s",
         ),
         (
-            Fault::NoFixedPoint {
+            Fault::Step(StepFault::NoFixedPoint {
                 step: 0.1,
                 iterations: 12,
-            },
+            }),
             "the equation of a step of 0.1 s was not solved in 12 iterations: the step is too long for an iteration by fixed points, which converges up to about \
              one over the largest rate of the motion and of its stabilisation",
         ),
         (
-            Fault::StepNotSolved {
+            Fault::Step(StepFault::NotSolved {
                 step: 0.1,
                 iterations: 12,
                 joint: None,
-            },
+            }),
             "a step of 0.1 s was not solved in 12 iterations: it is too long for the motion, or for springs and dampers that are stiff; take a shorter one",
         ),
         (
-            Fault::StepNotSolved {
+            Fault::Step(StepFault::NotSolved {
                 step: 0.1,
                 iterations: 12,
                 joint: Some("crank"),
-            },
+            }),
             "a step of 0.1 s was not solved in 12 iterations: the constraints of joint `crank` nearly depend on others here",
         ),
         (
-            Fault::SpectralRadius { value: 1.5 },
+            Fault::Start(StartFault::SpectralRadius { value: 1.5 }),
             "the spectral radius of the generalized-alpha method is from 0 to 1, not 1.5",
         ),
         (
-            Fault::Undetermined { share: 0.123_45 },
+            Fault::Analysis(AnalysisFault::MotionLeftFree { share: 0.123_45 }),
             "the equations leave a motion free here (0.123 of a trial motion): they depend on each other, or a driver is missing",
         ),
         (
@@ -250,11 +260,11 @@ fn numbers_are_those_of_a_person() {
             "the interval from 1 s to 1 s must have a length",
         ),
         (
-            Fault::CountedAngles {
+            Fault::Assembly(AssemblyFault::CountedAngles {
                 element: "spring",
                 counted: 1,
                 given: 2,
-            },
+            }),
             "`spring` counts turns of one angle, not of 2",
         ),
     ] {
@@ -288,7 +298,7 @@ fn a_main_that_returns_an_error_prints_the_sentence() {
         "`mass` of `rod` must be positive"
     );
     assert_eq!(
-        format!("{:?}", Fault::StateNotFinite),
+        format!("{:?}", Fault::Step(StepFault::StateNotFinite)),
         "the state holds a number that is not finite"
     );
 }
@@ -305,7 +315,7 @@ fn what_is_not_there_is_not_read_as_zero() {
     let fault = view.reaction(&multipliers, PIVOT, stranger).unwrap_err();
     assert!(matches!(
         fault,
-        Fault::NotBetween {
+        ReadingFault::NotBetween {
             element: "pivot",
             ..
         }
@@ -317,22 +327,80 @@ fn what_is_not_there_is_not_read_as_zero() {
     );
 }
 
+/// Who walks along the sources and prints each one says every sentence once.
 #[test]
-fn what_stopped_a_run_is_the_source_of_its_error() {
-    let error = SimulationError {
+fn a_chain_of_sources_says_a_sentence_once() {
+    let error = refused();
+    assert_eq!(
+        error.to_string(),
+        "at 1.5 s: `value` of `mass` must be positive"
+    );
+    assert!(error.source().is_none() && error.fault.source().is_none());
+    let run = RunError::<(), &str>::Simulation(error);
+    assert!(run.source().is_none());
+}
+
+fn refused() -> SimulationError<()> {
+    let fault = Fault::Parameter(ParameterError {
+        field: "mass",
+        attribute: "value",
+        fault: ParameterFault::NotPositive,
+    });
+    SimulationError {
         time: 1.5,
-        fault: Fault::Parameter(ParameterError {
-            field: "mass",
-            attribute: "value",
-            fault: ParameterFault::NotPositive,
-        }),
+        fault,
         state: (),
-    };
-    let fault = error.source().expect("a fault");
-    assert_eq!(fault.to_string(), error.fault.to_string());
-    let parameter = fault.source().expect("a parameter");
-    assert!(parameter.downcast_ref::<ParameterError>().is_some());
-    assert!(parameter.source().is_none());
+    }
+}
+
+/// In one line an error is a sentence; in several it keeps what it holds, but the state.
+#[test]
+fn an_error_that_is_shown_in_full_has_its_fields() {
+    let singular = Fault::Step(StepFault::Singular {
+        joint: 2,
+        name: "pivot",
+        relative_pivot: 0.0,
+    });
+    assert_eq!(
+        format!("{singular:?}"),
+        "the constraints depend on each other at joint `pivot` (relative pivot 0)"
+    );
+    let fields = "Step(
+    Singular {
+        joint: 2,
+        name: \"pivot\",
+        relative_pivot: 0.0,
+    },
+)";
+    assert_eq!(format!("{singular:#?}"), fields);
+    let run = RunError::<(), &str>::Simulation(refused());
+    assert_eq!(
+        format!("{run:?}"),
+        "at 1.5 s: `value` of `mass` must be positive"
+    );
+    let fields = "Simulation(
+    SimulationError {
+        time: 1.5,
+        fault: Parameter(
+            ParameterError {
+                field: \"mass\",
+                attribute: \"value\",
+                fault: NotPositive,
+            },
+        ),
+        ..
+    },
+)";
+    assert_eq!(format!("{run:#?}"), fields);
+    let stopped = RunError::<(), &str>::Observer("the disk is full");
+    assert_eq!(format!("{stopped:#?}"), "the disk is full");
+}
+
+/// A step hands it on.
+#[test]
+#[cfg(target_pointer_width = "64")]
+fn a_fault_is_as_small_as_what_it_says() {
+    assert_eq!(size_of::<Fault>(), size_of::<ParameterError>());
 }
 
 #[test]

@@ -7,6 +7,7 @@ use std::string::ToString;
 
 use super::crank::Crank;
 use super::rod::{PIVOT, ROD, Rod, rod};
+use crate::error::StartFault;
 use crate::state::State;
 use crate::*;
 
@@ -85,16 +86,16 @@ fn a_fault_of_the_run_is_told_from_one_of_the_observer() {
     let Err(RunError::Simulation(error)) = refused else {
         panic!("an interval from NaN was run");
     };
-    assert!(matches!(error.fault, Fault::Interval { .. }));
+    assert!(matches!(
+        error.fault,
+        Fault::Start(StartFault::Interval { .. })
+    ));
     // Who returns nothing has the same error as it is.
     let plain = simulation!(&rod).run(f64::NAN..=1.0, every(0.1), |_| ());
     let plain: SimulationError<State<f64, 7, 6>> = plain.unwrap_err();
     assert_eq!(plain.fault.to_string(), error.fault.to_string());
-    let source = RunError::<_, Full>::from(plain);
-    assert_eq!(
-        source.source().unwrap().to_string(),
-        error.fault.to_string()
-    );
+    let whole = RunError::<_, Full>::from(plain);
+    assert_eq!(whole.to_string(), error.to_string());
 }
 
 /// `?` hands on either error of a run whose observer returns any error at all.

@@ -1,7 +1,7 @@
 //! Runs: chapter 15 of Flores, reports, failures.
 
 use crate::dynamics::Iterations;
-use crate::error::NotFinite;
+use crate::error::{NotFinite, StartFault, StepFault};
 use crate::mechanism::{Normalised, Orientation};
 use crate::state::State;
 use core::ops::ControlFlow;
@@ -125,7 +125,7 @@ fn the_augmented_lagrangian_takes_about_two_iterations() {
     let error = Simulation::new(&rod, hasty, ODE45).run(0.0..=1.0, every(0.1), proceed);
     assert!(matches!(
         error.unwrap_err().fault,
-        Fault::NotConverged { iterations: 2, .. }
+        Fault::Step(StepFault::NotConverged { iterations: 2, .. })
     ));
 }
 
@@ -315,20 +315,23 @@ fn what_is_refused_comes_with_time_and_state() {
         assert!(
             refused
                 .iter()
-                .all(|fault| matches!(fault, Fault::Setting { .. })),
+                .all(|fault| matches!(fault, Fault::Start(StartFault::Setting { .. }))),
             "{refused:?}"
         );
     }
     let simulation = Simulation::new(&rod, StandardLagrange, ODE45);
     for interval in [1.0..=0.0, 0.0..=f64::NAN, f64::NEG_INFINITY..=0.0] {
         let refused = fault(simulation.run(interval, every(0.1), proceed));
-        assert!(matches!(refused, Fault::Interval { .. }), "{refused}");
+        assert!(
+            matches!(refused, Fault::Start(StartFault::Interval { .. })),
+            "{refused}"
+        );
     }
     let nan = State::from_parts([f64::NAN; 7], [0.0; 6]);
     let simulation = simulation.initial_state(nan);
     assert_eq!(
         fault(simulation.run(0.0..=1.0, every(0.1), proceed)),
-        Fault::StateNotFinite
+        Fault::Step(StepFault::StateNotFinite)
     );
 }
 
@@ -343,7 +346,10 @@ fn forces_out_of_range_end_the_run_at_the_last_good_state() {
         .run(0.0..=1.0, every(0.1), proceed)
         .unwrap_err();
     let origin = NotFinite::Closure("rod");
-    assert_eq!(error.fault, Fault::RatesNotFinite { origin });
+    assert_eq!(
+        error.fault,
+        Fault::Step(StepFault::RatesNotFinite { origin })
+    );
     assert!(error.time > 0.6999 && error.time < 0.7);
     assert!(error.state.coordinates().iter().all(|q| q.is_finite()));
 }

@@ -2,7 +2,7 @@
 
 use super::crank::crank;
 use super::rod::{PIVOT, ROD, Rod, rod};
-use crate::error::NotFinite;
+use crate::error::{NotFinite, StartFault, StepFault};
 use crate::integrate::DormandPrince5;
 use crate::state::State;
 use crate::*;
@@ -54,18 +54,21 @@ fn a_step_that_fails_leaves_state_and_time() {
     let origin = NotFinite::Closure("rod");
     assert_eq!(
         stepper.step(&mut state, 0.1),
-        Err(Fault::RatesNotFinite { origin })
+        Err(Fault::Step(StepFault::RatesNotFinite { origin }))
     );
     for step in [0.0, -0.1, f64::INFINITY] {
-        let refused = Fault::Setting {
+        let refused = Fault::Start(StartFault::Setting {
             name: "step",
             value: step,
-        };
+        });
         assert_eq!(stepper.step(&mut state, step), Err(refused));
     }
     assert_eq!((state, stepper.time()), (before, 1.0));
     Rod::set_velocity(&mut state, ROD, nalgebra::Vector3::new(f64::NAN, 0.0, 0.0));
-    assert_eq!(stepper.step(&mut state, 0.1), Err(Fault::StateNotFinite));
+    assert_eq!(
+        stepper.step(&mut state, 0.1),
+        Err(Fault::Step(StepFault::StateNotFinite))
+    );
 }
 
 #[test]
@@ -76,10 +79,10 @@ fn laws_of_time_want_steps_that_the_time_can_tell() {
         .starting_at(1.0);
     let mut state: State<f64, 8, 6> = crank.described_state().unwrap();
     let before = state;
-    let short = Fault::StepTooShort {
+    let short = Fault::Step(StepFault::TooShort {
         step: 1e-17,
         time: 1.0,
-    };
+    });
     assert_eq!(stepper.step(&mut state, 1e-17), Err(short));
     assert_eq!((state, stepper.time()), (before, 1.0));
 }

@@ -2,6 +2,7 @@
 //! from this struct (`tests/tests/firmware.rs`).
 
 use holonom::Real;
+use holonom::error::StepFault;
 use holonom::independent::IndependentCoordinates;
 use holonom::prelude::*;
 
@@ -86,7 +87,7 @@ pub fn everything<S: Real>() -> Result<S, Fault> {
         .chain(linear.a::<4>().iter())
         .fold(S::zero(), |sum, x| sum + x.abs());
     if !used.is_finite() {
-        return Err(Fault::StateNotFinite);
+        return Err(Fault::Step(StepFault::StateNotFinite));
     }
     let off = back
         .iter()

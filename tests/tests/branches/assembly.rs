@@ -1,5 +1,6 @@
 //! What is set by `set_angle` is kept by `assemble`, on the branch of the description.
 
+use holonom::error::AssemblyFault;
 use holonom::joints::{Cylindrical, Distance, Revolute, Spherical};
 use holonom::{View, constraints::Correction};
 
@@ -108,10 +109,10 @@ fn what_cannot_begin_to_move_is_refused_by_name() {
     assert!(
         matches!(
             fault,
-            Fault::WayEnds {
+            Fault::Assembly(AssemblyFault::WayEnds {
                 joint: Some("a"),
                 ..
-            }
+            })
         ),
         "{fault}"
     );
@@ -175,7 +176,7 @@ fn a_rocker_beyond_its_limit_is_refused_by_name() {
     let fault = mechanism
         .assemble(0.0, &mut state)
         .expect_err("no such configuration");
-    let Fault::WayEnds { joint, share } = fault else {
+    let Fault::Assembly(AssemblyFault::WayEnds { joint, share }) = fault else {
         panic!("{fault}");
     };
     assert_eq!(joint, Some("d"), "{fault}");

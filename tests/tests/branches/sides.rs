@@ -1,6 +1,7 @@
 //! Equations that hold upside down as well: assembly goes to the side that is meant, and a start on
 //! the other one is refused.
 
+use holonom::error::AssemblyFault;
 use holonom::joints::{
     ConstantVelocity, Cylindrical, Fixed, Parallel1, Planar, Prismatic, Revolute, RevoluteRevolute,
     Screw,
@@ -132,7 +133,10 @@ fn upside_down<M: MechanismExt + Default>(
 #[test]
 fn a_start_upside_down_is_refused_by_name_or_warned_of() {
     let fault = upside_down(OwnAligned::HANDLES.body, false).expect_err("upside down");
-    assert_eq!(fault, Fault::WrongSide { joint: "joint" });
+    assert_eq!(
+        fault,
+        Fault::Assembly(AssemblyFault::WrongSide { joint: "joint" })
+    );
     assert!(
         fault
             .to_string()

@@ -3,6 +3,7 @@
 
 use core::f64::consts::TAU;
 
+use holonom::error::{AssemblyFault, StepFault};
 use holonom::joints::{Cylindrical, Prismatic, Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{BodyHandle, View, state::Array};
@@ -168,7 +169,10 @@ fn a_ball_is_turned() {
     );
     // A hinge does not leave that free.
     let fault = crane.set_relative_orientation(&mut state, handles.elbow, given);
-    assert_eq!(fault, Err(Fault::NotFree { joint: "elbow" }));
+    assert_eq!(
+        fault,
+        Err(Fault::Assembly(AssemblyFault::NotFree { joint: "elbow" }))
+    );
 }
 
 #[test]
@@ -223,7 +227,7 @@ fn sleeves_wires_and_wheels_are_set() {
         assert_eq!(Loose::velocity(&state, body), Loose::velocity(&start, body));
     }
     let fault = loose.set_angle(&mut state, handles.bearing, f64::NAN);
-    assert_eq!(fault, Err(Fault::StateNotFinite));
+    assert_eq!(fault, Err(Fault::Step(StepFault::StateNotFinite)));
     assert!(numbers::<Loose>(&state).iter().all(|x| x.is_finite()));
 }
 
@@ -242,7 +246,8 @@ fn what_closes_a_loop_is_not_set() {
             Err(fault) => {
                 closing += 1;
                 assert_eq!(state, before);
-                let Fault::CarriesNothing { joint, instead } = fault else {
+                let Fault::Assembly(AssemblyFault::CarriesNothing { joint, instead }) = fault
+                else {
                     panic!("{fault}");
                 };
                 assert_eq!(joint, hinge.name());

@@ -2,6 +2,7 @@
 
 use core::fmt::Debug;
 
+use holonom::error::StepFault;
 use holonom::joints::{AngleDriver, Distance, PointOnPlane, Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{Fault, Mechanism, Real, Sample, StateParts, dynamics::Dynamics, state::Array};
@@ -394,7 +395,7 @@ fn what_contradicts_itself_does_not_assemble_at_any_size_and_place() {
         let mut state = model.described_state::<f64>().expect("described");
         let fault = model.assemble(0.0, &mut state);
         assert!(
-            matches!(fault, Err(Fault::NotConverged { .. })),
+            matches!(fault, Err(Fault::Step(StepFault::NotConverged { .. }))),
             "{length} m, {place} m, {distance} m: {fault:?}"
         );
     }

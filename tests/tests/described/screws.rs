@@ -3,6 +3,7 @@
 
 use core::f64::consts::TAU;
 
+use holonom::error::StartFault;
 use holonom::forces::TorsionalSpringDamper;
 use holonom::joints::{Revolute, Screw, Spherical};
 use holonom::prelude::*;
@@ -208,7 +209,7 @@ fn a_nut_beside_its_thread_is_refused() {
         .joint_coordinates();
     let refused = dynamics.state_of(&state).expect_err("it is open");
     assert!(
-        matches!(refused, Fault::InconsistentStart { .. }),
+        matches!(refused, Fault::Start(StartFault::Inconsistent { .. })),
         "{refused}"
     );
 }

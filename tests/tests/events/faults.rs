@@ -1,5 +1,6 @@
 //! What ends a run, by name.
 
+use holonom::error::{StartFault, StepFault};
 use holonom::prelude::*;
 use holonom::{Adams, AdamsBashforthMoulton4, Bdf, RadauIIA, Runs};
 
@@ -31,7 +32,10 @@ fn zeno<I: Runs<Problem<Ball, StandardLagrange>>>(integrator: I, restitution: f6
 fn chattering_is_told_by_name() {
     for restitution in [0.01, 0.1, 0.3, 0.5, 0.8, 0.9, 0.99] {
         let fault = zeno(DormandPrince::default(), restitution);
-        let is_told = matches!(fault, Fault::Chattering { event: "floor", .. });
+        let is_told = matches!(
+            fault,
+            Fault::Step(StepFault::Chattering { event: "floor", .. })
+        );
         assert!(is_told, "{restitution}: {fault}");
     }
     for restitution in [0.1, 0.5, 0.9] {
@@ -45,7 +49,10 @@ fn chattering_is_told_by_name() {
             zeno(RadauIIA::default(), restitution),
         ];
         for (index, fault) in faults.iter().enumerate() {
-            let is_told = matches!(fault, Fault::Chattering { event: "floor", .. });
+            let is_told = matches!(
+                fault,
+                Fault::Step(StepFault::Chattering { event: "floor", .. })
+            );
             assert!(is_told, "{index}, {restitution}: {fault}");
         }
     }
@@ -75,7 +82,10 @@ fn a_sliding_mode_is_told() {
         .run(0.0..=5.0, every(0.1), |_| ())
         .expect_err("it slides");
     assert!(
-        matches!(error.fault, Fault::Chattering { event: "rest", .. }),
+        matches!(
+            error.fault,
+            Fault::Step(StepFault::Chattering { event: "rest", .. })
+        ),
         "{error}"
     );
     assert!((error.time - 1.0).abs() < 1e-6, "{error}");
@@ -98,7 +108,10 @@ fn a_reading_that_is_not_a_number_is_told() {
             .run(0.0..=1.0, every(0.1), |_| ())
             .expect_err("not a number");
         assert!(
-            matches!(error.fault, Fault::EventNotANumber { event: "lost", .. }),
+            matches!(
+                error.fault,
+                Fault::Step(StepFault::EventNotANumber { event: "lost", .. })
+            ),
             "{error}"
         );
         assert!((error.time - bad).abs() < 0.011, "{error}");
@@ -132,7 +145,10 @@ fn settings_are_refused() {
             .run(0.0..=1.0, every(0.1), |_| ())
             .expect_err("no period");
         assert!(
-            matches!(error.fault, Fault::Setting { name: "period", .. }),
+            matches!(
+                error.fault,
+                Fault::Start(StartFault::Setting { name: "period", .. })
+            ),
             "{error}"
         );
     }
@@ -141,13 +157,19 @@ fn settings_are_refused() {
         .every_period(1e-18, |_, _| ())
         .run(0.0..=1.0, every(0.1), |_| ())
         .expect_err("too short");
-    assert!(matches!(error.fault, Fault::StepTooShort { .. }), "{error}");
+    assert!(
+        matches!(error.fault, Fault::Step(StepFault::TooShort { .. })),
+        "{error}"
+    );
     let error = simulation
         .verified()
         .every_period(0.1, |_, _| ())
         .run(0.0..=1.0, every(0.1), |_| ())
         .expect_err("no companion");
-    assert!(matches!(error.fault, Fault::NotVerified), "{error}");
+    assert!(
+        matches!(error.fault, Fault::Start(StartFault::NotVerified)),
+        "{error}"
+    );
 }
 
 #[test]
@@ -160,5 +182,8 @@ fn a_budget_counts_over_events() {
         })
         .run(0.0..=1e3, every(100.0), |_| ())
         .expect_err("too many");
-    assert!(matches!(error.fault, Fault::Budget { .. }), "{error}");
+    assert!(
+        matches!(error.fault, Fault::Step(StepFault::Budget { .. })),
+        "{error}"
+    );
 }

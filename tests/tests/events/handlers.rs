@@ -1,6 +1,7 @@
 //! What handlers change, and what is refused.
 
 use holonom::Runs;
+use holonom::error::StepFault;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 
@@ -134,11 +135,11 @@ fn a_state_that_a_handler_sets_is_checked_as_a_start() {
     assert!(
         matches!(
             error.fault,
-            Fault::HandlerOpens {
+            Fault::Step(StepFault::HandlerOpens {
                 event: "floor",
                 joint: "rail",
                 ..
-            }
+            })
         ),
         "{error}"
     );
@@ -150,7 +151,10 @@ fn a_state_that_a_handler_sets_is_checked_as_a_start() {
         })
         .run(0.0..=3.0, every(0.1), |_| ())
         .expect_err("not a number");
-    assert!(matches!(error.fault, Fault::StateNotFinite), "{error}");
+    assert!(
+        matches!(error.fault, Fault::Step(StepFault::StateNotFinite)),
+        "{error}"
+    );
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! A run that its caller leads, against the same run with an observer.
 
+use holonom::error::StartFault;
 use holonom::prelude::*;
 use holonom::run::{Leads, Reached, Run};
 use holonom::{Adams, DormandPrince853, RadauIIA, Runs};
@@ -158,7 +159,10 @@ fn inputs_and_states_change_within_a_step() {
     let refused = run.change(|event| event.set_displacement(rail, f64::NAN));
     assert!(refused.is_err() && (run.sample().displacement(rail) + 0.3).abs() < 1e-12);
     let error = run.advance_to(1.0).expect_err("it is past");
-    assert!(matches!(error.fault, Fault::Interval { .. }), "{error}");
+    assert!(
+        matches!(error.fault, Fault::Start(StartFault::Interval { .. })),
+        "{error}"
+    );
 }
 
 #[test]
@@ -169,6 +173,9 @@ fn what_needs_an_observer_is_refused() {
     let kept = simulation().checkpoints(3, |_| ()).begin(0.0..=1.0);
     let faults = [verified.map(drop), kept.map(drop)];
     for error in faults.map(|found| found.expect_err("nobody looks on")) {
-        assert!(matches!(error.fault, Fault::NotLed), "{error}");
+        assert!(
+            matches!(error.fault, Fault::Start(StartFault::NotLed)),
+            "{error}"
+        );
     }
 }

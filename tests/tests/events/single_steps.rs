@@ -1,6 +1,7 @@
 //! Steps of a `Stepper` up to an event.
 
 use holonom::Heun;
+use holonom::error::StepFault;
 use holonom::integrate::{DormandPrince5, DormandPrince8};
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
@@ -71,6 +72,9 @@ fn a_whole_step_is_that_of_step() {
     let error = stepper
         .step_until(&mut state, 0.01, Crossing::Either, |_| f64::NAN)
         .expect_err("not a number");
-    assert!(matches!(error, Fault::EventNotANumber { .. }), "{error}");
+    assert!(
+        matches!(error, Fault::Step(StepFault::EventNotANumber { .. })),
+        "{error}"
+    );
     assert_eq!((state, stepper.time()), (before, other.time()));
 }

@@ -1,5 +1,6 @@
 //! Painleve's rod: its end slides on rough ground, where no effort or several would do.
 
+use holonom::error::ModeFault;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 
@@ -82,7 +83,7 @@ fn paradox<C: Coordinates<Rod>>() {
         }
         for (mu, angle) in [(1.334, worst), (1.4, worst), (2.0, 0.9), (5.0, 1.3)] {
             let refused = effort::<C>(mu, angle, direction);
-            let is_told = matches!(refused, Err(Fault::NoUniqueFriction { joint: "foot", time }) if time == 0.0);
+            let is_told = matches!(refused, Err(Fault::Mode(ModeFault::NoUniqueFriction { joint: "foot", time })) if time == 0.0);
             assert!(is_told, "{mu} {angle} {direction}: {refused:?}");
         }
     }
@@ -106,10 +107,10 @@ fn a_rod_that_falls_is_refused_on_its_way() {
         .interactions([Interaction::friction_by_load(h.foot, 1.6)])
         .run(0.0..=3.0, every(1e-3), |sample| last = sample.time());
     let fault = run.expect_err("it falls into it").fault;
-    let Fault::NoUniqueFriction {
+    let Fault::Mode(ModeFault::NoUniqueFriction {
         joint: "foot",
         time,
-    } = fault
+    }) = fault
     else {
         panic!("{fault}");
     };

@@ -1,5 +1,6 @@
 //! Settings and joints that are refused, with their names.
 
+use holonom::error::{ModeFault, StartFault};
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::{Beside, Plane};
@@ -27,7 +28,7 @@ fn settings_are_refused_by_name() {
         (by_load(0.5).guide(f64::NAN), "guide"),
     ] {
         let fault = fault(&incline, interaction);
-        let is_told = matches!(fault, Fault::InteractionSetting { joint: "slide", setting, .. } if setting == wanted);
+        let is_told = matches!(fault, Fault::Start(StartFault::InteractionSetting { joint: "slide", setting, .. }) if setting == wanted);
         assert!(is_told, "{wanted}: {fault}");
     }
     for (interaction, wanted) in [
@@ -42,7 +43,7 @@ fn settings_are_refused_by_name() {
         ),
     ] {
         let fault = fault(&incline, interaction);
-        let is_told = matches!(fault, Fault::MisplacedSetting { joint: "slide", setting } if setting == wanted);
+        let is_told = matches!(fault, Fault::Start(StartFault::MisplacedSetting { joint: "slide", setting }) if setting == wanted);
         assert!(is_told, "{wanted}: {fault}");
     }
 }
@@ -84,10 +85,13 @@ fn a_load_that_is_not_determined_is_refused_by_name() {
     for (hinge, name) in [(h.lower, "lower"), (h.upper, "upper")] {
         let friction = Interaction::friction_by_load(hinge, 0.2).radius(0.01);
         let fault = fault(&door, friction);
-        assert_eq!(fault, Fault::LoadNotUnique { joint: name });
+        assert_eq!(fault, Fault::Mode(ModeFault::LoadNotUnique { joint: name }));
     }
     let missing = fault(&door, Interaction::friction_by_load(h.lower, 0.2));
-    assert_eq!(missing, Fault::LoadNotUnique { joint: "lower" });
+    assert_eq!(
+        missing,
+        Fault::Mode(ModeFault::LoadNotUnique { joint: "lower" })
+    );
 }
 
 fn stands<C: Coordinates<Carriage>>() {
@@ -105,7 +109,10 @@ fn stands<C: Coordinates<Carriage>>() {
     };
     // The moment in the rail is what the legs leave: they may share the weight in any way.
     let refused = slides([friction.guide(0.4), front, rear]);
-    assert_eq!(refused, Err(Fault::LoadNotUnique { joint: "rail" }));
+    assert_eq!(
+        refused,
+        Err(Fault::Mode(ModeFault::LoadNotUnique { joint: "rail" }))
+    );
     // The force in the rail is known all the same: the weight of the carriage.
     let rate = slides([friction, front, rear]).expect("it slides");
     let wanted = 3.0 - 0.1 * 2.0 * 9.81 / 7.0;

@@ -1,6 +1,6 @@
 //! What can be chosen, and what cannot.
 
-use holonom::error::AnalysisFault;
+use holonom::error::{AnalysisFault, AssemblyFault};
 use holonom::mechanism::HasInverse;
 use holonom::prelude::*;
 use holonom_models::{CartPole, FourBar, HeavyTop, SliderCrank};
@@ -36,10 +36,10 @@ fn choices_are_refused_by_name() {
     let closing = refused::<SliderCrank, 1>([h.slider_pin]);
     assert_eq!(
         closing,
-        Fault::CarriesNothing {
+        Fault::Assembly(AssemblyFault::CarriesNothing {
             joint: "slider_pin",
             instead: Some("crank_pin")
-        }
+        })
     );
 }
 

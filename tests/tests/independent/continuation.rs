@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 use core::ops::ControlFlow;
 
 use holonom::Real;
-use holonom::error::AnalysisFault;
+use holonom::error::{AnalysisFault, StartFault, StepFault};
 use holonom::independent::{
     BranchEnd, BranchPoint, Continuation, IndependentCoordinates, PointKind, Varied,
 };
@@ -390,7 +390,10 @@ fn refusals() -> Result<(), Fault> {
     let follow = |start, way| space.follow(start, way, |_| ControlFlow::Continue(()));
     let way = Continuation::new(h.load, 10.0);
     let setting = follow(&start, way.step(0.0));
-    assert!(matches!(setting, Err(Fault::Setting { name: "step", .. })));
+    assert!(matches!(
+        setting,
+        Err(Fault::Start(StartFault::Setting { name: "step", .. }))
+    ));
     let none = follow(&start, Continuation::new(h.load, f64::INFINITY));
     assert!(matches!(none, Err(Fault::Parameter(_))), "{none:?}");
     let afar = space.state([5.0], [0.0])?;
@@ -406,7 +409,10 @@ fn refusals() -> Result<(), Fault> {
         Err(Fault::Analysis(AnalysisFault::NotSteady { joint: "rail" }))
     );
     let found = follow(&afar, way);
-    assert!(found == Ok(BranchEnd::Reached) || matches!(found, Err(Fault::NotConverged { .. })));
+    assert!(
+        found == Ok(BranchEnd::Reached)
+            || matches!(found, Err(Fault::Step(StepFault::NotConverged { .. })))
+    );
     // Unloaded springs hold at any stiffness.
     let stiff = follow(&start, Continuation::new(h.stiffness, 600.0));
     assert_eq!(stiff, Ok(BranchEnd::Reached));

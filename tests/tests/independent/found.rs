@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use holonom::error::AnalysisFault;
+use holonom::error::{AnalysisFault, StartFault, StepFault};
 use holonom::independent::{Chosen, to_discrete};
 use holonom::mechanism::{HasInverse, HasJacobian, HasMassMatrix, Located};
 use holonom::prelude::*;
@@ -226,13 +226,13 @@ fn where_nothing_balances_there_is_no_equilibrium() -> Result<(), Fault> {
         let space = slides.coordinates([h.rail, h.sled])?;
         let found = space.equilibrium(&space.state([0.0, 0.0], [0.0, 0.0])?);
         assert!(
-            matches!(found, Err(Fault::NotConverged { .. })),
+            matches!(found, Err(Fault::Step(StepFault::NotConverged { .. }))),
             "{found:?}"
         );
         let space = slides.coordinates_in::<f32, 2>([h.rail, h.sled])?;
         let found = space.equilibrium(&space.state([0.0, 0.0], [0.0, 0.0])?);
         assert!(
-            matches!(found, Err(Fault::NotConverged { .. })),
+            matches!(found, Err(Fault::Step(StepFault::NotConverged { .. }))),
             "{found:?}"
         );
     }
@@ -323,10 +323,10 @@ fn a_direction_has_any_length_but_zero() -> Result<(), Fault> {
     let none = space.effective_mass(&state, h.free, Vector3::zeros());
     assert!(matches!(
         none,
-        Err(Fault::Setting {
+        Err(Fault::Start(StartFault::Setting {
             name: "direction",
             ..
-        })
+        }))
     ));
     Ok(())
 }
@@ -454,8 +454,14 @@ fn what_is_not_finite_does_not_travel() -> Result<(), Fault> {
     let h = Slides::HANDLES;
     let space = slides.coordinates([h.rail, h.sled])?;
     let none = [f64::NAN, 0.0];
-    assert_eq!(space.state(none, [0.0; 2]), Err(Fault::StateNotFinite));
-    assert_eq!(space.state([0.0; 2], none), Err(Fault::StateNotFinite));
+    assert_eq!(
+        space.state(none, [0.0; 2]),
+        Err(Fault::Step(StepFault::StateNotFinite))
+    );
+    assert_eq!(
+        space.state([0.0; 2], none),
+        Err(Fault::Step(StepFault::StateNotFinite))
+    );
     let (balls, h) = (Balls::default(), Balls::HANDLES);
     let [x, y, z] = [0, 1, 2].map(|k| Motion::of(h.ball, k));
     let space = balls.coordinates([Motion::of(h.foot, 0), x, y, z, Motion::of(h.hinge, 0)])?;

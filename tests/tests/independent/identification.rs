@@ -1,6 +1,7 @@
 //! Base parameters by their known numbers, and parameters from efforts.
 
 use holonom::BodyHandle;
+use holonom::error::StartFault;
 use holonom::independent::{Chosen, Identification};
 use holonom::mechanism::{HasInverse, HasJacobian};
 use holonom::prelude::*;
@@ -242,10 +243,10 @@ fn what_cannot_be_identified_is_refused() -> Result<(), Fault> {
     let (pendulum, h) = (Upright::default(), Upright::HANDLES);
     let space = pendulum.coordinates([h.hinge])?;
     let mut run = space.identification([h.rod]);
-    let surplus = Fault::Setting {
+    let surplus = Fault::Start(StartFault::Setting {
         name: "surplus of rows",
         value: 0.0,
-    };
+    });
     assert_eq!(run.identify([1.0]), Err(surplus));
     let state = space.state([0.3], [1.0])?;
     assert!(run.observe(&state, [1.0], [f64::NAN]).is_err());

@@ -136,9 +136,9 @@ fn a_state_of_another_length_is_refused() -> Result<(), Fault> {
         space.trim(&former, [h.bearing], [h.load]).err(),
     ];
     for fault in faults {
-        let Some(Fault::NotAssembled {
+        let Some(Fault::Analysis(AnalysisFault::NotAssembled {
             joint, violation, ..
-        }) = fault
+        })) = fault
         else {
             panic!("{fault:?}");
         };
@@ -158,7 +158,13 @@ fn a_state_of_another_length_is_refused() -> Result<(), Fault> {
     assert!((space.mass(&opening)? - wanted).amax() < 1e-14);
     let fault = space.bias(&opening).err();
     assert!(
-        matches!(fault, Some(Fault::NotAssembled { joint: "end", .. })),
+        matches!(
+            fault,
+            Some(Fault::Analysis(AnalysisFault::NotAssembled {
+                joint: "end",
+                ..
+            }))
+        ),
         "{fault:?}"
     );
     Ok(())

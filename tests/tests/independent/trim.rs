@@ -1,6 +1,6 @@
 //! Inputs, parameters and rates that hold a mechanism, against closed forms.
 
-use holonom::error::AnalysisFault;
+use holonom::error::{AnalysisFault, StepFault};
 use holonom::independent::Varied;
 use holonom::prelude::*;
 use holonom_models::{CartPole, Panda, SliderCrank};
@@ -109,7 +109,7 @@ fn what_does_not_balance_is_refused_by_name() -> Result<(), Fault> {
     let tilted = space.state([0.2, 0.3], [0.0, 0.0])?;
     let found = space.trim(&tilted, [h.hinge], [h.push]);
     assert!(
-        matches!(found, Err(Fault::NotConverged { .. })),
+        matches!(found, Err(Fault::Step(StepFault::NotConverged { .. }))),
         "{found:?}"
     );
     // A rate of nothing that turns fast.

@@ -2,6 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
+use holonom::error::{AssemblyFault, ReadingFault, StartFault};
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::InteractionMode;
@@ -217,7 +218,10 @@ fn what_does_not_heed_them_refuses() {
     use holonom::sensitivity::SensitivityExt as _;
     let left_out = |fault: Fault| {
         let text = fault.to_string();
-        let is_told = matches!(fault, Fault::LimitsLeftOut { joint: "rail", .. });
+        let is_told = matches!(
+            fault,
+            Fault::Start(StartFault::LimitsLeftOut { joint: "rail", .. })
+        );
         assert!(is_told && text.contains("without_limits"), "{text}");
     };
     let (shaft, h) = (shaft(), Shaft::HANDLES);
@@ -264,20 +268,20 @@ fn what_a_run_refuses_is_named() {
     let fault = run(&beyond);
     let is_told = matches!(
         fault,
-        Fault::BeyondLimit {
+        Fault::Assembly(AssemblyFault::BeyondLimit {
             joint: "rail",
             limit: 0.5,
             ..
-        }
+        })
     );
     assert!(is_told, "{fault}");
     let unordered = Shaft::new(-1.0, -1.0, 0.8).expect("finite");
     let fault = run(&unordered);
     let setting = "lower limit";
-    let is_told = matches!(fault, Fault::InteractionSetting { joint: "rail", setting: s, .. } if s == setting);
+    let is_told = matches!(fault, Fault::Start(StartFault::InteractionSetting { joint: "rail", setting: s, .. }) if s == setting);
     assert!(is_told, "{fault}");
     let lively = Shaft::new(-1.0, 2.0, 1.2).expect("finite");
-    let is_told = |fault| matches!(fault, Fault::InteractionSetting { joint: "rail", setting, .. } if setting == "restitution");
+    let is_told = |fault| matches!(fault, Fault::Start(StartFault::InteractionSetting { joint: "rail", setting, .. }) if setting == "restitution");
     assert!(is_told(run(&lively)));
     assert!(Shaft::new(f64::NAN, 1.0, 0.8).is_err());
     let mut spoiled = shaft();
@@ -355,7 +359,7 @@ fn elements_of_arrays_have_limits_of_their_own() {
             }
             let [first, second] = h.hinges.map(|hinge| sample.mode(hinge.angle().limits()));
             assert!(first.is_ok() && second.is_ok());
-            let fault = Fault::NoSuchLimits { joint: "root" };
+            let fault = ReadingFault::NoSuchLimits { joint: "root" };
             assert_eq!(sample.mode(h.root.angle().limits()), Err(fault));
         })
         .expect("it swings");
@@ -451,12 +455,12 @@ fn equilibria_beyond_a_limit_are_named() -> Result<(), Fault> {
     assert!(space.equilibrium(&inside).is_ok() && space.check_limits(&inside).is_ok());
     let found = [
         space.equilibrium(&beyond).err(),
-        space.check_limits(&beyond).err(),
+        space.check_limits(&beyond).map_err(Fault::from).err(),
     ];
     for fault in found {
         let is_told = matches!(
             fault,
-            Some(Fault::BeyondLimit { joint: "hinge", value, limit: 0.25 }) if (value - 1.5).abs() < 1e-12
+            Some(Fault::Assembly(AssemblyFault::BeyondLimit { joint: "hinge", value, limit: 0.25 })) if (value - 1.5).abs() < 1e-12
         );
         assert!(is_told, "{fault:?}");
     }

@@ -1,6 +1,7 @@
 //! What is refused, and how it is told.
 
 use holonom::GeneralizedAlpha;
+use holonom::error::{AssemblyFault, ReadingFault, StartFault};
 use holonom::prelude::*;
 use holonom::run::InteractionHandle;
 
@@ -21,7 +22,7 @@ fn settings_are_checked_at_the_start() {
     let limits = |bounds| Interaction::limits(rail, bounds);
     let refused = |interaction, name: &str| {
         let fault = fault(interaction);
-        let is_told = matches!(fault, Fault::InteractionSetting { joint: "rail", setting, .. } if setting == name);
+        let is_told = matches!(fault, Fault::Start(StartFault::InteractionSetting { joint: "rail", setting, .. }) if setting == name);
         assert!(is_told, "{fault}");
     };
     refused(limits([1.0, -1.0]), "lower limit");
@@ -41,20 +42,20 @@ fn settings_are_checked_at_the_start() {
     let misplaced = fault(friction(1.0).restitution(0.5));
     let is_told = matches!(
         misplaced,
-        Fault::MisplacedSetting {
+        Fault::Start(StartFault::MisplacedSetting {
             joint: "rail",
             setting: "restitution"
-        }
+        })
     );
     assert!(is_told, "{misplaced}");
     let beyond = fault(limits([0.5, 1.0]));
     let is_told = matches!(
         beyond,
-        Fault::BeyondLimit {
+        Fault::Assembly(AssemblyFault::BeyondLimit {
             joint: "rail",
             limit: 0.5,
             ..
-        }
+        })
     );
     assert!(is_told, "{beyond}");
 }
@@ -67,7 +68,10 @@ fn breaks_are_finite() {
         .breaks(&[0.5, f64::NAN])
         .run(0.0..=1.0, every(0.1), |_| ());
     let fault = run.expect_err("no instant").fault;
-    assert!(matches!(fault, Fault::BreakNotFinite { .. }), "{fault}");
+    assert!(
+        matches!(fault, Fault::Start(StartFault::BreakNotFinite { .. })),
+        "{fault}"
+    );
 }
 
 #[test]
@@ -91,37 +95,37 @@ fn handles_of_what_is_not_there_are_refused() {
         run.map(|_| ()).map_err(|error| error.fault)
     };
     assert_eq!(engaged(brake, first), Ok(()));
-    let another = Fault::NoSuchInteraction {
+    let another = Fault::Reading(ReadingFault::NoSuchInteraction {
         number: 1,
         interactions: 1,
-    };
+    });
     assert_eq!(engaged(brake, second), Err(another));
-    let no_limits = Fault::NoSuchLimits { joint: "rail" };
+    let no_limits = Fault::Reading(ReadingFault::NoSuchLimits { joint: "rail" });
     assert_eq!(engaged(brake, rail.limits()), Err(no_limits));
     // A stop is neither engaged nor released.
-    let misplaced = Fault::MisplacedSetting {
+    let misplaced = Fault::Start(StartFault::MisplacedSetting {
         joint: "rail",
         setting: "engage",
-    };
+    });
     let [listed] = Interaction::handles(&[stop]);
     for handle in [listed, rail.limits()] {
         assert_eq!(engaged(stop, handle), Err(misplaced));
     }
     // At the place of the handle is another interaction.
-    let other = Fault::NoSuchInteraction {
+    let other = Fault::Reading(ReadingFault::NoSuchInteraction {
         number: 0,
         interactions: 1,
-    };
+    });
     assert_eq!(engaged(stop, first), Err(other));
     assert_eq!(engaged(brake, listed), Err(other));
     let mut stepper = ball
         .stepper(StandardLagrange, Rk4)
         .expect("sound parameters")
         .interactions([stop]);
-    let misplaced = Fault::MisplacedSetting {
+    let misplaced = Fault::Start(StartFault::MisplacedSetting {
         joint: "rail",
         setting: "release",
-    };
+    });
     assert_eq!(stepper.release(rail.limits()), Err(misplaced));
     assert_eq!(stepper.engage(second), Err(another));
 }
@@ -135,7 +139,10 @@ fn generalized_alpha_is_refused() {
         .absolute_coordinates()
         .interactions([friction])
         .run(0.0..=1.0, every(0.1), |_| ());
-    assert_eq!(run.expect_err("it is refused").fault, Fault::NoInteractions);
+    assert_eq!(
+        run.expect_err("it is refused").fault,
+        Fault::Start(StartFault::NoInteractions)
+    );
 }
 
 #[test]

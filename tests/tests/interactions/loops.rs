@@ -2,6 +2,7 @@
 
 use core::f64::consts::PI;
 
+use holonom::error::ModeFault;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::InteractionMode;
@@ -153,16 +154,16 @@ fn a_driver_that_pushes_against_a_stop_is_refused() {
             .interactions([stop.restitution(restitution)])
             .run(0.0..=1.0, every(0.1), |_| ())
             .expect_err("nothing stops the belt");
-        let Fault::DrivenAgainst {
+        let Fault::Mode(ModeFault::DrivenAgainst {
             joint,
             driver,
-            limit,
+            is_upper,
             time,
-        } = error.fault
+        }) = error.fault
         else {
             panic!("{error}");
         };
-        assert_eq!((joint, driver, limit), ("rollers", "motor", 0.5));
+        assert_eq!((joint, driver, is_upper), ("rollers", "motor", true));
         assert!((time - 0.5).abs() < 1e-9, "{error}");
     }
     for restitution in [0.0, 0.5] {

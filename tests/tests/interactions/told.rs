@@ -1,6 +1,7 @@
 //! What is told of modes, of their power, and of what goes wrong.
 
 use holonom::ImplicitMidpoint;
+use holonom::error::{ModeFault, StepFault};
 use holonom::prelude::*;
 use holonom::run::InteractionMode::{AtUpper, Sticking};
 
@@ -114,11 +115,11 @@ fn a_handler_that_tears_a_loop_is_named() {
     let fault = fault.expect_err("the rod tears").fault;
     let is_told = matches!(
         fault,
-        Fault::HandlerOpens {
+        Fault::Step(StepFault::HandlerOpens {
             event: "blow",
             joint: "rod",
             ..
-        }
+        })
     );
     assert!(
         is_told && fault.to_string().contains("`event.impact`"),
@@ -137,12 +138,12 @@ fn a_driver_against_a_stop_is_named() {
     let fault = run.expect_err("it is driven on").fault;
     let is_told = matches!(
         fault,
-        Fault::DrivenAgainst {
+        Fault::Mode(ModeFault::DrivenAgainst {
             joint: "rollers",
             driver: "motor",
-            limit: 0.5,
+            is_upper: true,
             ..
-        }
+        })
     );
     assert!(is_told, "{fault}");
 }

@@ -1,6 +1,7 @@
 //! The correction onto the constraints: to round-off, with the least movement in the metric of the
 //! mass, or not at all.
 
+use holonom::error::StepFault;
 use holonom::prelude::*;
 use holonom::{Fault, constraints::Correction, state::Array};
 use holonom_assembler::assembler::Assembler;
@@ -142,7 +143,7 @@ fn a_failure_leaves_the_state<M: Scene>() {
         let mut state = state::<f64, M>(x.as_slice());
         let fault = hasty.correct::<M>(&constants, 0.0, &mut state);
         assert!(
-            matches!(fault, Err(Fault::NotConverged { iterations: 1, residual, .. }) if residual > 0.0),
+            matches!(fault, Err(Fault::Step(StepFault::NotConverged { iterations: 1, residual, .. })) if residual > 0.0),
             "{fault:?}"
         );
         assert_eq!(flat::<f64, M>(&state), x.as_slice());

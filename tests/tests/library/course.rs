@@ -2,6 +2,7 @@
 
 use core::ops::ControlFlow;
 
+use holonom::error::StepFault;
 use holonom::{
     DormandPrince, Fault, StateParts, Tolerance,
     error::NotFinite,
@@ -56,9 +57,9 @@ impl System<f64> for Moving<'_> {
         if sound {
             Ok(padded)
         } else {
-            Err(Fault::RatesNotFinite {
+            Err(Fault::Step(StepFault::RatesNotFinite {
                 origin: NotFinite::Unknown,
-            })
+            }))
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Generalized-alpha on constraints: its order, what it keeps, what it damps.
 
+use holonom::error::{StartFault, StepFault};
 use holonom::forces::SpringDamper;
 use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;
@@ -396,7 +397,10 @@ fn dependent_equations_are_refused_by_name() {
     .expect_err("dependent");
     println!("{error}");
     assert!(
-        matches!(error.fault, Fault::Singular { name: "upper", .. }),
+        matches!(
+            error.fault,
+            Fault::Step(StepFault::Singular { name: "upper", .. })
+        ),
         "{error}"
     );
 }
@@ -411,11 +415,17 @@ fn settings_that_make_no_sense_are_refused() {
     };
     for rho in [-1e-9, 1.0 + 1e-9, f64::NAN, f64::INFINITY] {
         let fault = run(GeneralizedAlpha::every(1e-3).spectral_radius(rho));
-        assert!(matches!(fault, Fault::SpectralRadius { .. }), "{fault}");
+        assert!(
+            matches!(fault, Fault::Start(StartFault::SpectralRadius { .. })),
+            "{fault}"
+        );
     }
     for step in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
         let fault = run(GeneralizedAlpha::every(step));
-        assert!(matches!(fault, Fault::Setting { .. }), "{fault}");
+        assert!(
+            matches!(fault, Fault::Start(StartFault::Setting { .. })),
+            "{fault}"
+        );
     }
 }
 
@@ -454,10 +464,12 @@ fn long_steps_end_with_a_fault_or_are_warned_of() {
                     assert!(
                         matches!(
                             error.fault,
-                            Fault::StepNotSolved { .. }
-                                | Fault::Singular { .. }
-                                | Fault::RatesNotFinite { .. }
-                                | Fault::StateNotFinite
+                            Fault::Step(
+                                StepFault::NotSolved { .. }
+                                    | StepFault::Singular { .. }
+                                    | StepFault::RatesNotFinite { .. }
+                                    | StepFault::StateNotFinite
+                            )
                         ),
                         "{rho} {step}: {error}"
                     );
@@ -520,7 +532,7 @@ fn an_arm_that_is_pulled_beyond_its_reach_stops() {
         assert!(
             matches!(
                 error.fault,
-                Fault::StepNotSolved { .. } | Fault::Singular { .. }
+                Fault::Step(StepFault::NotSolved { .. } | StepFault::Singular { .. })
             ),
             "{error}"
         );

@@ -1,6 +1,7 @@
 //! Methods for controllers: their orders and costs in both descriptions, and an augmented
 //! Lagrangian of a cost that is known in advance.
 
+use holonom::error::StepFault;
 use holonom::prelude::*;
 use holonom::{
     Heun, JointCoordinates, Kutta3, Midpoint, SemiImplicitEuler, StateParts,
@@ -189,7 +190,10 @@ fn an_augmented_lagrangian_of_a_known_cost() {
         Dynamics::<Problem<DrivenSliderCrank, _>>::new(&crank, weak).expect("acceptable");
     let fault = dynamics.evaluate(0.0, &state).err();
     assert!(
-        matches!(fault, Some(Fault::NotConverged { iterations: 2, .. })),
+        matches!(
+            fault,
+            Some(Fault::Step(StepFault::NotConverged { iterations: 2, .. }))
+        ),
         "{fault:?}"
     );
     let joints = Dynamics::<Problem<DrivenSliderCrank, _>>::new(&crank, weak)
@@ -198,7 +202,10 @@ fn an_augmented_lagrangian_of_a_known_cost() {
     let start = joints.state_of(&state).expect("consistent");
     let fault = joints.evaluate(0.0, &start).err();
     assert!(
-        matches!(fault, Some(Fault::NotConverged { iterations: 2, .. })),
+        matches!(
+            fault,
+            Some(Fault::Step(StepFault::NotConverged { iterations: 2, .. }))
+        ),
         "{fault:?}"
     );
 }

@@ -1,5 +1,6 @@
 //! Where equations depend on each other only in one configuration.
 
+use holonom::error::StepFault;
 use holonom::joints::{DisplacementDriver, Distance, PointOnLine, PointOnPlane};
 use holonom::prelude::*;
 
@@ -41,7 +42,7 @@ fn an_arm_pulled_beyond_its_reach_stops() {
         .expect_err("out of reach");
     println!("{error}");
     assert!((1.99..2.001).contains(&error.time), "{}", error.time);
-    let Fault::NotConverged { joint, .. } = error.fault else {
+    let Fault::Step(StepFault::NotConverged { joint, .. }) = error.fault else {
         panic!("{error}");
     };
     assert!(matches!(joint, Some("upper" | "lower" | "pull")), "{error}");
@@ -49,7 +50,7 @@ fn an_arm_pulled_beyond_its_reach_stops() {
     let mut state = error.state;
     let fault = arm.assemble(2.0 + 1e-6, &mut state);
     assert!(
-        matches!(fault, Err(Fault::NotConverged { .. })),
+        matches!(fault, Err(Fault::Step(StepFault::NotConverged { .. }))),
         "{fault:?}"
     );
 }
@@ -65,9 +66,9 @@ fn a_step_control_that_gives_up_names_the_joint() {
         .expect_err("out of reach");
     println!("{error}");
     assert!((1.99..2.001).contains(&error.time), "{}", error.time);
-    let Fault::StepSizeUnderflow {
+    let Fault::Step(StepFault::SizeUnderflow {
         joint: Some(joint), ..
-    } = error.fault
+    }) = error.fault
     else {
         panic!("{error}");
     };
@@ -84,7 +85,7 @@ fn an_analysis_beyond_reach_names_a_joint() {
         .expect_err("out of reach");
     println!("{error}");
     assert!((1.99999..2.001).contains(&error.time), "{}", error.time);
-    let Fault::Singular { name, .. } = error.fault else {
+    let Fault::Step(StepFault::Singular { name, .. }) = error.fault else {
         panic!("{error}");
     };
     assert!(["upper", "lower", "pull"].contains(&name), "{error}");

@@ -3,6 +3,7 @@
 use core::f64::consts::FRAC_PI_6;
 
 use holonom::RadauIIA;
+use holonom::error::StepFault;
 use holonom::prelude::*;
 use holonom_models::FlyballGovernor;
 use holonom_tests::IS_EXHAUSTIVE;
@@ -187,7 +188,7 @@ fn steps_that_are_too_long_for_the_springs_are_named() {
         for run in [bodies, joints] {
             match run {
                 Ok(report) => assert!(!report.warnings().is_empty(), "{step} s is silent"),
-                Err(error) => assert_eq!(error.fault, Fault::Unstable { step }),
+                Err(error) => assert_eq!(error.fault, Fault::Step(StepFault::Unstable { step })),
             }
         }
     }

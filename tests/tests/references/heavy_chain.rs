@@ -1,5 +1,6 @@
 //! E02: the heavy bob on a light chain, a ratio of masses of 1e6.
 
+use holonom::error::StepFault;
 use holonom::prelude::*;
 use holonom_models::HeavyChain;
 use holonom_tests::IS_EXHAUSTIVE;
@@ -51,7 +52,10 @@ fn a_penalty_too_small_for_the_bob_is_not_accepted() {
         .expect_err("far from converged");
     let fault = error.fault;
     assert!(
-        matches!(fault, Fault::NotConverged { iterations: 20, .. }),
+        matches!(
+            fault,
+            Fault::Step(StepFault::NotConverged { iterations: 20, .. })
+        ),
         "{fault}"
     );
 }

@@ -1,6 +1,7 @@
 //! A02 with five windows: ten times through a singular configuration with six ways to go on, in
 //! both descriptions.
 
+use holonom::error::StepFault;
 use holonom::prelude::*;
 use holonom_models::QuintupleFourBar;
 use holonom_models::problems::QuintupleParallelogram;
@@ -130,7 +131,10 @@ fn an_augmented_lagrangian_passes_with_a_larger_alpha() {
     ] {
         match result {
             Ok(found) => assert!(found <= ASKED, "{found:e}"),
-            Err(fault) => assert!(matches!(fault, Fault::NotConverged { .. }), "{fault}"),
+            Err(fault) => assert!(
+                matches!(fault, Fault::Step(StepFault::NotConverged { .. })),
+                "{fault}"
+            ),
         }
     }
 }

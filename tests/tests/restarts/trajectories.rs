@@ -1,5 +1,6 @@
 //! Trajectories against what observers were shown, and against closed forms.
 
+use holonom::error::ReadingFault;
 use holonom::integrate::{DormandPrince5, DormandPrince8, FixedStep};
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
@@ -243,7 +244,10 @@ fn a_step_that_is_asked_within_is_what_observers_are_shown() {
                 }
             }
             let before = stepper.within(&step, from - 1e-3);
-            assert!(matches!(before, Err(Fault::OutsideTrajectory { .. })));
+            assert!(matches!(
+                before,
+                Err(Fault::Reading(ReadingFault::OutsideTrajectory { .. }))
+            ));
             let end = stepper.within(&step, stepper.time()).expect("within");
             assert_eq!(end.velocities(), stepper.bodies(&state).velocities());
         }

@@ -3,6 +3,7 @@
 
 use core::fmt::Debug;
 
+use holonom::error::{StartFault, StepFault};
 use holonom::forces::{ConstantMoment, SpringDamper};
 use holonom::joints::{AngleDriver, Distance, PointOnPlane, Prismatic, Revolute};
 use holonom::prelude::*;
@@ -339,10 +340,15 @@ fn the_factor_stays_where_dependent_equations_are_told_apart() {
     kept::<f32>(10.0, 3e-2).expect("in range");
     // A ratio of masses for which single precision has no compliance.
     let fault = kept::<f32>(1e-3, 1.0).expect_err("no compliance");
-    assert!(matches!(fault, Fault::PenaltyFactor { alpha, largest } if largest < alpha));
+    assert!(
+        matches!(fault, Fault::Start(StartFault::PenaltyFactor { alpha, largest }) if largest < alpha)
+    );
     // Nor double precision, some day.
     let fault = kept::<f64>(1e-11, 1.0).expect_err("no compliance");
-    assert!(matches!(fault, Fault::PenaltyFactor { .. }));
+    assert!(matches!(
+        fault,
+        Fault::Start(StartFault::PenaltyFactor { .. })
+    ));
     // Where no equation depends on others, nothing is refused.
     assert!(Penalty::<f32>::of(&Door::default()).is_ok());
 }
@@ -376,7 +382,11 @@ fn what_is_no_number_is_refused_by_its_name() {
     assert!(Scales::<f32>::of(&pushed(1e60)).is_err());
     let fault = Scales::<f64>::of(&pushed(f64::MAX)).expect_err("beyond numbers");
     assert!(
-        matches!(fault, Fault::Setting { .. } | Fault::RatesNotFinite { .. }),
+        matches!(
+            fault,
+            Fault::Start(StartFault::Setting { .. })
+                | Fault::Step(StepFault::RatesNotFinite { .. })
+        ),
         "{fault}"
     );
     // As large and as small as numbers go otherwise.
@@ -400,7 +410,10 @@ fn what_is_no_number_is_refused_by_its_name() {
         RodPendulum::HANDLES.rod,
         [f64::NAN, 0.0, 0.0].into(),
     );
-    assert_eq!(Scales::at(&rod, 0.0, &state), Err(Fault::StateNotFinite));
+    assert_eq!(
+        Scales::at(&rod, 0.0, &state),
+        Err(Fault::Step(StepFault::StateNotFinite))
+    );
 }
 
 #[test]
@@ -416,7 +429,10 @@ fn a_fixed_step_bounds_the_rates() {
         let refused = Simulation::new(&bob, terms.at_step(step), Rk4::every(0.01))
             .run(0.0..=1.0, every(1.0), |_| ControlFlow::Continue(()))
             .expect_err("no step");
-        assert!(matches!(refused.fault, Fault::Setting { .. }));
+        assert!(matches!(
+            refused.fault,
+            Fault::Start(StartFault::Setting { .. })
+        ));
     }
     // And so is a radian that has no length.
     let nothing = Penalty {
@@ -425,7 +441,7 @@ fn a_fixed_step_bounds_the_rates() {
     };
     assert!(matches!(
         Dynamics::<Problem<_, _>>::new(&bob, nothing).map(drop),
-        Err(Fault::Setting { value: 0.0, .. })
+        Err(Fault::Start(StartFault::Setting { value: 0.0, .. }))
     ));
 }
 

@@ -1,5 +1,6 @@
 //! What goes wrong on the way: an error with time and place, the last good state, no panic.
 
+use holonom::error::StepFault;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{Fault, StateParts, dynamics::Dynamics, error::NotFinite};
@@ -68,19 +69,25 @@ fn a_state_that_is_not_finite_is_refused() {
                     panic!("it must not begin")
                 })
                 .expect_err("not finite");
-            assert_eq!((error.time, error.fault), (2.0, Fault::StateNotFinite));
+            assert_eq!(
+                (error.time, error.fault),
+                (2.0, Fault::Step(StepFault::StateNotFinite))
+            );
             assert_eq!(
                 error.to_string(),
                 "at 2 s: the state holds a number that is not finite"
             );
             let mut stepper = Stepper::new(&rod, Penalty::default(), Rk4).expect("acceptable");
             let mut stepped = state;
-            assert_eq!(stepper.step(&mut stepped, 0.1), Err(Fault::StateNotFinite));
+            assert_eq!(
+                stepper.step(&mut stepped, 0.1),
+                Err(Fault::Step(StepFault::StateNotFinite))
+            );
             assert_eq!(stepper.time(), 0.0);
             let mut assembled = state;
             assert_eq!(
                 rod.assemble(0.0, &mut assembled),
-                Err(Fault::StateNotFinite)
+                Err(Fault::Step(StepFault::StateNotFinite))
             );
         }
     }
@@ -98,7 +105,7 @@ fn an_orientation_without_length_names_its_body() {
         RodPendulum::set_pose(&mut state, RodPendulum::HANDLES.rod, pose);
         let state: holonom::state::State<f64, 7, 6, 2> = state;
         assert!(state.coordinates().iter().all(|q| q.is_finite()));
-        let refused = Fault::ZeroOrientation { body: "rod" };
+        let refused = Fault::Step(StepFault::ZeroOrientation { body: "rod" });
         let error = Simulation::new(&rod, Penalty::default(), DormandPrince::default())
             .initial_state(state)
             .run(2.0..=3.0, every(0.1), |_| -> () {
@@ -134,11 +141,11 @@ fn a_singular_system_names_a_joint() {
             simulation.run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()))
         }
         .expect_err("5 of 10 equations are redundant");
-        let Fault::Singular {
+        let Fault::Step(StepFault::Singular {
             joint,
             name,
             relative_pivot,
-        } = error.fault
+        }) = error.fault
         else {
             panic!("{error}");
         };
@@ -152,7 +159,10 @@ fn a_singular_system_names_a_joint() {
     let error = Simulation::new(&door, Baumgarte::default(), DormandPrince::default())
         .run(0.0..=1.0, every(0.1), |_| ControlFlow::Continue(()))
         .expect_err("5 of 10 equations are redundant");
-    assert!(matches!(error.fault, Fault::Singular { .. }), "{error}");
+    assert!(
+        matches!(error.fault, Fault::Step(StepFault::Singular { .. })),
+        "{error}"
+    );
 }
 
 #[test]
@@ -228,10 +238,10 @@ fn names_a_joint<M: Mechanism + Default>() {
     assert!(
         matches!(
             error.fault,
-            Fault::Singular {
+            Fault::Step(StepFault::Singular {
                 name: "a" | "b" | "c" | "d",
                 ..
-            }
+            })
         ),
         "{error}"
     );
@@ -266,10 +276,10 @@ fn a_singular_configuration_is_told_where_it_is_met() {
     assert!(
         matches!(
             fault,
-            Fault::Singular {
+            Fault::Step(StepFault::Singular {
                 name: "left" | "right",
                 ..
-            }
+            })
         ),
         "{fault}"
     );
@@ -297,7 +307,7 @@ fn a_step_size_that_vanishes_ends_the_run_with_the_last_good_state() {
         })
         .expect_err("the motion ends at 1 s");
     assert!(
-        matches!(error.fault, Fault::StepSizeUnderflow { step, joint: None, .. } if step < 1e-14),
+        matches!(error.fault, Fault::Step(StepFault::SizeUnderflow { step, joint: None, .. }) if step < 1e-14),
         "{error}"
     );
     // The step control of 1e-6 does not know the end better.
@@ -326,7 +336,11 @@ fn rates_that_are_not_finite_end_the_run_with_the_last_good_state() {
     let origin = NotFinite::Closure("stone");
     assert_eq!(
         (error.fault, error.time, last),
-        (Fault::RatesNotFinite { origin }, 0.375, 0.375)
+        (
+            Fault::Step(StepFault::RatesNotFinite { origin }),
+            0.375,
+            0.375
+        )
     );
     assert_eq!(error.state.velocities(), &[1.0, 0.0, 0.0]);
     // A step control goes as near as it can.
@@ -334,7 +348,10 @@ fn rates_that_are_not_finite_end_the_run_with_the_last_good_state() {
         .forces(law)
         .run(0.0..=1.0, every_step(), |_| ControlFlow::Continue(()))
         .expect_err("not a number");
-    assert_eq!(error.fault, Fault::RatesNotFinite { origin });
+    assert_eq!(
+        error.fault,
+        Fault::Step(StepFault::RatesNotFinite { origin })
+    );
     assert!((error.time - 0.4).abs() < 1e-13, "{error}");
     assert!((error.state.coordinates()[0] - error.time).abs() < 1e-13);
 }
@@ -353,7 +370,7 @@ fn an_iteration_that_does_not_converge_is_reported() {
         .run(1.0..=2.0, every(0.1), |_| ControlFlow::Continue(()))
         .expect_err("two iterations are not enough");
     assert!(
-        matches!(error.fault, Fault::NotConverged { iterations: 2, residual, joint: Some("pivot"), alpha: Some(1.0) } if residual > 0.0),
+        matches!(error.fault, Fault::Step(StepFault::NotConverged { iterations: 2, residual, joint: Some("pivot"), alpha: Some(1.0) }) if residual > 0.0),
         "{error}"
     );
     assert_eq!(error.time, 1.0);
@@ -379,7 +396,7 @@ fn what_cannot_be_assembled_is_left_as_it_was() {
     assert!(
         matches!(
             fault,
-            Fault::NotConverged { residual, joint: Some("here" | "there"), .. } if residual > 0.1
+            Fault::Step(StepFault::NotConverged { residual, joint: Some("here" | "there"), .. }) if residual > 0.1
         ),
         "{fault}"
     );
@@ -390,7 +407,10 @@ fn what_cannot_be_assembled_is_left_as_it_was() {
             panic!("it must not begin")
         })
         .expect_err("impossible");
-    assert!(matches!(error.fault, Fault::NotConverged { .. }), "{error}");
+    assert!(
+        matches!(error.fault, Fault::Step(StepFault::NotConverged { .. })),
+        "{error}"
+    );
     assert_eq!((error.time, error.state), (0.0, before));
 }
 
@@ -408,12 +428,12 @@ fn no_convergence_names_the_joint_that_is_violated_most() {
         let mut state = described;
         *state.coordinates_mut() = [x, 0.0, -1.25_f64.sqrt()];
         let fault = untouched.correct::<Bead>(&constants, 0.0, &mut state);
-        let Err(Fault::NotConverged {
+        let Err(Fault::Step(StepFault::NotConverged {
             iterations: 0,
             residual,
             joint: Some(name),
             alpha: None,
-        }) = fault
+        })) = fault
         else {
             panic!("{fault:?}");
         };
@@ -424,7 +444,7 @@ fn no_convergence_names_the_joint_that_is_violated_most() {
         *state.velocities_mut() = [-0.5 * x, 0.0, 1.0];
         let fault = untouched.correct::<Bead>(&constants, 0.0, &mut state);
         assert!(
-            matches!(fault, Err(Fault::NotConverged { joint: Some(name), .. }) if name == joint),
+            matches!(fault, Err(Fault::Step(StepFault::NotConverged { joint: Some(name), .. })) if name == joint),
             "{fault:?}"
         );
     }

@@ -1,5 +1,6 @@
 //! Reactions: equal and opposite, and with the weight what moves the bodies.
 
+use holonom::error::ReadingFault;
 use holonom::joints::{Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{StateParts, Wrench, dynamics::Dynamics};
@@ -141,7 +142,7 @@ fn a_joint_has_no_reaction_on_a_body_that_is_not_its_own() {
     let refused = view.reaction(&evaluation.multipliers, handles.hinge, handles.lower);
     assert_eq!(
         refused,
-        Err(Fault::NotBetween {
+        Err(ReadingFault::NotBetween {
             element: "hinge",
             body: "lower"
         })

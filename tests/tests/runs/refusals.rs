@@ -1,5 +1,6 @@
 //! Settings that make no sense are refused before anything happens, by name.
 
+use holonom::error::StartFault;
 use holonom::prelude::*;
 use holonom::{Fault, dynamics::Dynamics};
 use holonom_models::RodPendulum;
@@ -9,7 +10,7 @@ const BAD: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
 #[track_caller]
 fn names(fault: &Fault, expected: &str, bad: f64) {
-    let Fault::Setting { name, value } = *fault else {
+    let Fault::Start(StartFault::Setting { name, value }) = *fault else {
         panic!("{fault}");
     };
     assert!(name.contains(expected), "{name}");

@@ -1,5 +1,6 @@
 //! Single steps, for a loop of one's own, do what a run with a fixed step does.
 
+use holonom::error::StepFault;
 use holonom::prelude::*;
 use holonom::run::Steps;
 use holonom::{Fault, Runs, integrate::DormandPrince5};
@@ -106,7 +107,10 @@ fn a_step_that_fails_leaves_state_and_time() {
     // So long that the numbers overflow.
     let fault = stepper.step(&mut state, 1e200).expect_err("overflow");
     assert!(
-        matches!(fault, Fault::RatesNotFinite { .. } | Fault::StateNotFinite),
+        matches!(
+            fault,
+            Fault::Step(StepFault::RatesNotFinite { .. } | StepFault::StateNotFinite)
+        ),
         "{fault}"
     );
     assert_eq!((stepper.time(), state), (0.125, before));

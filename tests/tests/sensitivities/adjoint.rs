@@ -1,6 +1,7 @@
 //! Gradients by the adjoint against forward sensitivities, differences of whole runs, and a closed
 //! form.
 
+use holonom::error::StartFault;
 use holonom::independent::Direction;
 use holonom::prelude::*;
 use holonom::{Forward, Kutta3};
@@ -284,5 +285,8 @@ fn of_laws_that_switch_is_refused() {
     let start = space.state([0.0], [0.0]).expect("regular");
     let run = space.adjoint(StandardLagrange, Rk4::every(0.1));
     let found = run.gradient(&start, [h.push], &[[1.0]], [], |_| Forward::fixed(0.0));
-    assert_eq!(found.err(), Some(Fault::SwitchLeftOut { law: "stop" }));
+    assert_eq!(
+        found.err(),
+        Some(Fault::Start(StartFault::SwitchLeftOut { law: "stop" }))
+    );
 }

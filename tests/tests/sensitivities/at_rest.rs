@@ -1,5 +1,6 @@
 //! Derivatives along directions in which nothing moves: no error of a value tells of them.
 
+use holonom::error::StepFault;
 use holonom::independent::Direction;
 use holonom::integrate::Method;
 use holonom::measure::{NoForces, Unlimited};
@@ -128,7 +129,10 @@ fn growth_without_bound_is_told() -> Result<(), Box<dyn std::error::Error>> {
         .joint_coordinates()
         .run(0.0..=1000.0, every(1000.0), |_| ());
     let fault = fault.expect_err("beyond all numbers").fault;
-    assert!(matches!(fault, Fault::Unstable { .. }), "{fault}");
+    assert!(
+        matches!(fault, Fault::Step(StepFault::Unstable { .. })),
+        "{fault}"
+    );
     Ok(())
 }
 

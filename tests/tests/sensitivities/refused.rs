@@ -1,7 +1,7 @@
 //! Starts whose derivatives would open a joint.
 
 use holonom::Forward;
-use holonom::error::AnalysisFault;
+use holonom::error::{AnalysisFault, AssemblyFault, StartFault};
 use holonom::prelude::*;
 
 /// A pendulum whose bob hangs at a parameter's length.
@@ -44,11 +44,11 @@ fn a_start_that_does_not_follow() -> Result<(), Fault> {
     };
     assert!(matches!(
         fault,
-        Fault::StartOpens {
+        Fault::Start(StartFault::DirectionOpens {
             joint: "hinge",
             direction: 0,
             ..
-        }
+        })
     ));
     // Nor are derivatives accepted that are none.
     let mut start = along.start();
@@ -130,7 +130,10 @@ fn a_coordinate_that_follows() -> Result<(), Fault> {
     let refused = space.sensitivities(&start, [Direction::position(h.right_foot)]);
     assert!(matches!(
         refused.err(),
-        Some(Fault::Analysis(AnalysisFault::NotChosen { .. }) | Fault::CarriesNothing { .. })
+        Some(
+            Fault::Analysis(AnalysisFault::NotChosen { .. })
+                | Fault::Assembly(AssemblyFault::CarriesNothing { .. })
+        )
     ));
     Ok(())
 }

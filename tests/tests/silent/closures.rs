@@ -3,6 +3,7 @@
 
 use core::cell::Cell;
 
+use holonom::error::StepFault;
 use holonom::joints::Revolute;
 use holonom::prelude::*;
 use holonom::{
@@ -69,7 +70,10 @@ fn a_closure_with_memory_is_refused() {
         };
         let error = run(DormandPrince::default(), law, joints).expect_err("it remembers");
         assert!(
-            matches!(error, Fault::TwoAnswers { body: "link", .. }),
+            matches!(
+                error,
+                Fault::Step(StepFault::TwoAnswers { body: "link", .. })
+            ),
             "{error}"
         );
         let said = error.to_string();
@@ -96,10 +100,10 @@ fn hysteresis_and_noise_are_refused() {
     let error = run(Rk4::every(1e-3), noise, false).expect_err("it is noise");
     assert_eq!(
         error,
-        Fault::TwoAnswers {
+        Fault::Step(StepFault::TwoAnswers {
             body: "link",
             time: 0.0
-        }
+        })
     );
     let late = Cell::new(0.0);
     let filter = |time: f64, _: &State, loads: &mut Loads<'_, f64, Arm>| {
@@ -109,7 +113,10 @@ fn hysteresis_and_noise_are_refused() {
         loads.moment(Arm::HANDLES.link, [late.get(), 0.0, 0.0]);
     };
     let error = run(Rk4::every(1e-3), filter, true).expect_err("it filters");
-    assert!(matches!(error, Fault::TwoAnswers { .. }), "{error}");
+    assert!(
+        matches!(error, Fault::Step(StepFault::TwoAnswers { .. })),
+        "{error}"
+    );
 }
 
 /// Counters, tables and forces that are not finite are no memory of the forces.

@@ -1,6 +1,6 @@
 //! A spring whose points meet, and steps that are too long for a damper or a spin.
 
-use holonom::error::NotFinite;
+use holonom::error::{NotFinite, StepFault};
 use holonom::forces::{SpringDamper, TorsionalActuator};
 use holonom::joints::{PointOnLine, Revolute};
 use holonom::prelude::*;
@@ -86,7 +86,10 @@ fn a_spring_without_direction_is_named() {
     };
     for joints in [false, true] {
         let error = run(joints).expect_err("it has no direction");
-        assert_eq!(error.fault, Fault::RatesNotFinite { origin });
+        assert_eq!(
+            error.fault,
+            Fault::Step(StepFault::RatesNotFinite { origin })
+        );
     }
 }
 
@@ -113,7 +116,7 @@ fn a_step_that_is_too_long_is_named() {
     let joints = joints.run(0.0..=10.0, every(10.0), nothing);
     for run in [bodies, joints] {
         let error = run.expect_err("it grows");
-        assert_eq!(error.fault, Fault::Unstable { step: 0.01 });
+        assert_eq!(error.fault, Fault::Step(StepFault::Unstable { step: 0.01 }));
         assert!(error.to_string().contains("a step of 0.01 s is too long"));
     }
 }

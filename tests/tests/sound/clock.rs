@@ -1,5 +1,6 @@
 //! The time of a stepper: as right after hours as after a step.
 
+use holonom::error::StepFault;
 use holonom::joints::{AngleDriver, Revolute};
 use holonom::prelude::*;
 
@@ -71,5 +72,8 @@ fn microseconds_from_a_unix_time_on() {
     let fault = stepper
         .step(&mut state, 1e-7)
         .expect_err("below the resolution");
-    assert!(matches!(fault, Fault::StepTooShort { .. }), "{fault}");
+    assert!(
+        matches!(fault, Fault::Step(StepFault::TooShort { .. })),
+        "{fault}"
+    );
 }

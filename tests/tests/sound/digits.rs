@@ -1,6 +1,7 @@
 //! Steps that the digits of a number type, or a limit of the user's, keep from becoming small
 //! enough.
 
+use holonom::error::StepFault;
 use holonom::joints::{Distance, Revolute};
 use holonom::prelude::*;
 
@@ -31,12 +32,12 @@ fn a_tolerance_below_the_digits_of_a_position_is_named() {
     };
     let error = run(1e-9).expect_err("below what the digits tell");
     println!("{error}");
-    let Fault::StepSizeUnderflow {
+    let Fault::Step(StepFault::SizeUnderflow {
         is_least: false,
         joint: None,
         resolution: Some(resolution),
         ..
-    } = error.fault
+    }) = error.fault
     else {
         panic!("{error}");
     };

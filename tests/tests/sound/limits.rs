@@ -1,5 +1,6 @@
 //! What steps are held to: budgets, largest steps, breaks; and an observer's word between reports.
 
+use holonom::error::{StartFault, StepFault};
 use holonom::forces::Actuator;
 use holonom::joints::{Distance, PointOnLine, Revolute};
 use holonom::prelude::*;
@@ -98,7 +99,7 @@ fn a_stiff_stabilisation_ends_with_the_budget() {
     assert!(
         matches!(
             error.fault,
-            Fault::Budget { .. } | Fault::StepSizeUnderflow { .. }
+            Fault::Step(StepFault::Budget { .. } | StepFault::SizeUnderflow { .. })
         ),
         "{error}"
     );
@@ -112,10 +113,10 @@ fn a_stiff_stabilisation_ends_with_the_budget() {
     assert!(
         matches!(
             error.fault,
-            Fault::Budget {
+            Fault::Step(StepFault::Budget {
                 evaluations: 100..=120,
                 joint: None,
-            }
+            })
         ),
         "{error}"
     );
@@ -145,7 +146,10 @@ fn reports_closer_than_the_time_can_tell_are_refused() {
     let error = Simulation::new(&rod, StandardLagrange, DormandPrince::default())
         .run(0.0..=1.0, every(1e-17), |_| ControlFlow::Continue(()))
         .expect_err("two million samples of one instant");
-    assert!(matches!(error.fault, Fault::StepTooShort { .. }), "{error}");
+    assert!(
+        matches!(error.fault, Fault::Step(StepFault::TooShort { .. })),
+        "{error}"
+    );
 }
 
 /// A door on two hinges, of which five equations follow from others.
@@ -184,7 +188,10 @@ fn a_penalty_factor_that_is_lost_in_round_off_is_refused() {
     for alpha in [1e17, 1e30] {
         let fault = run(alpha).expect_err("lost in round-off");
         println!("{fault}");
-        assert!(matches!(fault, Fault::PenaltyFactor { .. }), "{fault}");
+        assert!(
+            matches!(fault, Fault::Start(StartFault::PenaltyFactor { .. })),
+            "{fault}"
+        );
     }
 }
 
@@ -195,7 +202,10 @@ fn a_step_beyond_the_limit_of_stability_is_named() {
         .run(0.0..=10.0, every(0.1), |_| ControlFlow::Continue(()))
         .expect_err("it explodes");
     println!("{error}");
-    assert!(matches!(error.fault, Fault::StepTooLong { .. }), "{error}");
+    assert!(
+        matches!(error.fault, Fault::Step(StepFault::TooLong { .. })),
+        "{error}"
+    );
 }
 
 /// Four links of 1 m, the ground among them, all but in a line.
@@ -223,10 +233,10 @@ fn a_budget_that_ends_in_a_singular_configuration_names_the_joint() {
     println!("{error}");
     let is_named = matches!(
         error.fault,
-        Fault::Budget {
+        Fault::Step(StepFault::Budget {
             joint: Some("rod"),
             ..
-        }
+        })
     );
     assert!(is_named, "{error}");
 }

@@ -1,5 +1,6 @@
 //! Rates that are not finite say where that began.
 
+use holonom::error::StepFault;
 use holonom::forces::SpringDamper;
 use holonom::joints::{AngleDriver, PointOnLine, Revolute};
 use holonom::prelude::*;
@@ -66,7 +67,7 @@ where
     }
     .expect_err("not finite");
     println!("{error}");
-    let Fault::RatesNotFinite { origin } = error.fault else {
+    let Fault::Step(StepFault::RatesNotFinite { origin }) = error.fault else {
         panic!("{error}");
     };
     origin
@@ -106,5 +107,8 @@ fn a_law_that_ends_is_named() {
         .expect_err("no law");
     println!("{error}");
     let origin = NotFinite::Joint("motor");
-    assert_eq!(error.fault, Fault::RatesNotFinite { origin });
+    assert_eq!(
+        error.fault,
+        Fault::Step(StepFault::RatesNotFinite { origin })
+    );
 }

@@ -1,6 +1,7 @@
 //! What cannot be read is refused: no zeros for a body that has nothing to do with a joint or a
 //! force.
 
+use holonom::error::ReadingFault;
 use holonom::forces::{PointForce, SpringDamper};
 use holonom::joints::{AngleDriver, Revolute};
 use holonom::prelude::*;
@@ -38,10 +39,10 @@ fn a_body_that_has_nothing_to_do_with_it_is_refused() {
                 .expect_err("another rod");
             assert_eq!(
                 fault,
-                Fault::NotBetween {
+                Fault::Reading(ReadingFault::NotBetween {
                     element: "left_hinge",
                     body: "right"
-                }
+                })
             );
             assert_eq!(
                 fault.to_string(),
@@ -59,11 +60,11 @@ fn a_body_that_has_nothing_to_do_with_it_is_refused() {
                 .expect_err("of two");
             assert_eq!(
                 fault,
-                Fault::NoSuchPlace {
+                Fault::Reading(ReadingFault::NoSuchPlace {
                     joint: "left_hinge",
                     place: 2,
                     places: 2
-                }
+                })
             );
             // What is right stays: a force in the axes of a body exerts nothing on that body.
             let own = sample.load(handles.push, handles.left).expect("between");
@@ -95,7 +96,7 @@ fn the_effort_of_an_equation_that_was_left_out_is_refused() {
             let fault = sample
                 .driving_effort(handles.twin)
                 .expect_err("its equation follows from that of the other motor");
-            assert_eq!(fault, Fault::NoEffort { joint: "twin" });
+            assert_eq!(fault, Fault::Reading(ReadingFault::NoEffort { joint: "twin" }));
             assert_eq!(
                 fault.to_string(),
                 "the equation of driver `twin` was left out as redundant: other joints carry its effort"

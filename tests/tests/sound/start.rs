@@ -1,6 +1,6 @@
 //! A run begins on its constraints, or is told to begin elsewhere.
 
-use holonom::error::Quantity;
+use holonom::error::{Quantity, StartFault};
 use holonom::joints::{AngleDriver, Distance, Revolute};
 use holonom::prelude::*;
 use nalgebra::Vector3;
@@ -52,12 +52,12 @@ fn a_rod_that_flies_off_its_hinge_is_refused() {
         .run(0.0..=1.0, every(0.1), go)
         .expect_err("refused");
     println!("{error}");
-    let Fault::InconsistentStart {
+    let Fault::Start(StartFault::Inconsistent {
         joint: "hinge",
         quantity: Quantity::Speed,
         violation,
         is_final: false,
-    } = error.fault
+    }) = error.fault
     else {
         panic!("{error}");
     };
@@ -113,11 +113,11 @@ fn a_motor_that_turns_already_wants_a_rod_that_does() {
     println!("{error}");
     assert!(matches!(
         error.fault,
-        Fault::InconsistentStart {
+        Fault::Start(StartFault::Inconsistent {
             joint: "motor",
             quantity: Quantity::AngularVelocity,
             ..
-        }
+        })
     ));
 }
 

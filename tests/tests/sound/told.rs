@@ -1,5 +1,6 @@
 //! Settings that do not suit a mechanism are told of, and those that do are not.
 
+use holonom::error::StepFault;
 use holonom::joints::PointOnPlane;
 use holonom::prelude::*;
 use holonom::{Runs, Warning};
@@ -84,6 +85,6 @@ fn a_step_that_is_too_long_for_a_correction_is_named() {
         let nothing = |_: &Sample<'_, f64, RodPendulum>| ControlFlow::Continue(());
         let error = simulation.run(0.0..=end, every(end), nothing);
         let error = error.expect_err("nothing of it is right");
-        assert_eq!(error.fault, Fault::Unstable { step });
+        assert_eq!(error.fault, Fault::Step(StepFault::Unstable { step }));
     }
 }

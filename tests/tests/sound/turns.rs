@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use holonom::error::AssemblyFault;
 use holonom::forces::TorsionalSpringDamper;
 use holonom::joints::{Gear, Revolute, Screw};
 use holonom::nalgebra::{Quaternion, Vector3};
@@ -90,7 +91,7 @@ fn a_spring_that_was_wound_up_stays_so_when_its_poses_are_set() {
             .expect_err("another number of them");
         assert_eq!(
             fault,
-            Fault::CountedAngles {
+            AssemblyFault::CountedAngles {
                 element: "spring",
                 counted: 1,
                 given: angles.len()

@@ -1,17 +1,17 @@
 //! What knows the motion of bodies alone, and rates that are no numbers.
 
 use holonom::GeneralizedAlpha;
-use holonom::error::{LeavesOut, NotFinite};
+use holonom::error::{LeavesOut, NotFinite, StartFault, StepFault};
 use holonom::prelude::*;
 
 use crate::Fan;
 
 fn left_out(fault: Fault) -> LeavesOut {
     match fault {
-        Fault::StateLeftOut {
+        Fault::Start(StartFault::StateLeftOut {
             state: "current",
             by,
-        } => by,
+        }) => by,
         other => panic!("another fault: {other}"),
     }
 }
@@ -135,9 +135,9 @@ fn a_rate_that_is_no_number_names_its_state() {
     };
     for by_joints in [false, true] {
         let fault = run(by_joints);
-        let expected = Fault::RatesNotFinite {
+        let expected = Fault::Step(StepFault::RatesNotFinite {
             origin: NotFinite::Rate("level"),
-        };
+        });
         assert_eq!(fault, expected);
         let text = fault.to_string();
         assert_eq!(

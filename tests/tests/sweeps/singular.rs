@@ -4,6 +4,7 @@
 
 use std::fmt::Debug;
 
+use holonom::error::StepFault;
 use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use holonom::{
@@ -246,7 +247,7 @@ fn run<M: JointCoordinates, F: Formulation<f64>, I: RunsBoth<M, F>>(
         }
         Err(error) => {
             println!("{what}: {error}");
-            if let Fault::Budget { evaluations, .. } = error.fault {
+            if let Fault::Step(StepFault::Budget { evaluations, .. }) = error.fault {
                 assert!(evaluations <= BUDGET + OVER, "{what}: {evaluations}");
             }
             None
@@ -484,7 +485,7 @@ fn links_in_line_are_singular_in_both_descriptions() {
         let stepped = stepper.step(&mut state, 1e-3);
         [by_bodies, by_joints, stepped].map(|outcome| match outcome {
             Ok(()) => false,
-            Err(Fault::Singular { name, .. }) => {
+            Err(Fault::Step(StepFault::Singular { name, .. })) => {
                 assert_eq!(name, "rod");
                 true
             }

@@ -2,6 +2,7 @@
 
 use core::ops::ControlFlow;
 
+use holonom::error::AnalysisFault;
 use holonom::independent::Continuation;
 use holonom::prelude::*;
 
@@ -15,10 +16,10 @@ fn friction_at_rest_is_refused_by_name() -> Result<(), Fault> {
     let slider = dry(0.0, 0.0);
     let space = slider.coordinates([h.rail])?;
     let rest = space.state([0.3], [0.0])?;
-    let refused = Some(Fault::OnSwitch {
+    let refused = Some(Fault::Analysis(AnalysisFault::OnSwitch {
         law: "friction",
         expression: "rate",
-    });
+    }));
     assert_eq!(space.linearise(&rest, [], |_| []).err(), refused);
     assert_eq!(space.equilibrium(&rest).err(), refused);
     assert_eq!(space.trim(&rest, [h.rail], [h.pull]).err(), refused);
@@ -50,7 +51,7 @@ fn a_bend_is_refused_where_derivatives_are_asked() -> Result<(), Fault> {
             (Ok(linear), Some(stiffness)) => {
                 assert!((linear.by_positions[0] + stiffness).abs() < 1e-12);
             }
-            (Err(Fault::OnSwitch { law, expression }), None) => {
+            (Err(Fault::Analysis(AnalysisFault::OnSwitch { law, expression })), None) => {
                 let wanted = ("springs", "-(abs(length - 9.0) - PLAY)");
                 assert_eq!((law, expression), wanted);
             }

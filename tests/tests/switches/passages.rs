@@ -3,6 +3,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
+use holonom::error::ModeFault;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::{Reached, Run};
@@ -281,9 +282,9 @@ fn at_length_zero_the_motion_tells_the_side() {
         .run(0.0..=30.0, every(1.0), |_| ())
         .expect_err("it is held")
         .fault;
-    let Fault::SlidingLaw {
+    let Fault::Mode(ModeFault::SlidingLaw {
         law, expression, ..
-    } = fault
+    }) = fault
     else {
         panic!("{fault}");
     };

@@ -1,5 +1,6 @@
 //! Starts at a switch, and laws that slide along one.
 
+use holonom::error::ModeFault;
 use holonom::mechanism::{Absolute, Relative};
 use holonom::prelude::*;
 use holonom::{Bdf, RadauIIA};
@@ -48,9 +49,9 @@ fn friction_that_must_hold_is_refused_by_name() {
         (-1.0, 0.1, 1.0 / 0.6),
     ] {
         let (fault, time) = fault(&dry(speed, pull));
-        let Fault::SlidingLaw {
+        let Fault::Mode(ModeFault::SlidingLaw {
             law, expression, ..
-        } = fault
+        }) = fault
         else {
             panic!("{fault}");
         };
@@ -71,7 +72,10 @@ fn friction_that_must_hold_is_refused_by_name() {
             .run(0.0..=4.0, every(0.1), |_| ()),
     ] {
         let fault = error.expect_err("it slides").fault;
-        assert!(matches!(fault, Fault::SlidingLaw { .. }), "{fault}");
+        assert!(
+            matches!(fault, Fault::Mode(ModeFault::SlidingLaw { .. })),
+            "{fault}"
+        );
     }
 }
 
@@ -153,7 +157,10 @@ fn a_rest_ends_where_something_pulls() {
     let at_once = Pulled::new(0.8, 1e-3).expect("acceptable");
     let (fault, time) = fault(&at_once);
     // Up to half a newton it would stick.
-    assert!(matches!(fault, Fault::SlidingLaw { .. }), "{fault}");
+    assert!(
+        matches!(fault, Fault::Mode(ModeFault::SlidingLaw { .. })),
+        "{fault}"
+    );
     assert!((time - 1.0).abs() < 1e-3, "{time}");
 }
 

@@ -1,5 +1,6 @@
 //! Laws that switch beside what else happens in a run.
 
+use holonom::error::{ModeFault, StartFault};
 use holonom::prelude::*;
 use holonom::run::Checkpoint;
 
@@ -134,7 +135,10 @@ fn what_laws_that_switch_cannot_do_is_refused() {
         .simulation(StandardLagrange, DormandPrince::default())
         .run(0.0..=1.0, every(0.5), |_| ())
         .expect_err("derivatives jump");
-    assert_eq!(refused.fault, Fault::SwitchLeftOut { law: "springs" });
+    assert_eq!(
+        refused.fault,
+        Fault::Start(StartFault::SwitchLeftOut { law: "springs" })
+    );
 }
 
 #[test]
@@ -286,7 +290,7 @@ fn what_is_not_a_number_is_refused_by_name() {
         .run(0.0..=2.0, every(0.5), |_| ())
         .expect_err("it has no root")
         .fault;
-    let Fault::SwitchUndecided { law, .. } = fault else {
+    let Fault::Mode(ModeFault::SwitchUndecided { law, .. }) = fault else {
         panic!("{fault}");
     };
     assert!(["value", "mirrored"].contains(&law), "{fault}");

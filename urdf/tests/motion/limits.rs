@@ -1,5 +1,6 @@
 //! Runs that heed the limits of a file.
 
+use holonom::error::AssemblyFault;
 use holonom::prelude::*;
 
 use super::robots::panda::Panda;
@@ -24,7 +25,7 @@ fn a_start_beyond_a_limit_is_refused_by_its_joint() {
     let fault = run.expect_err("beyond").fault;
     let is_told = matches!(
         fault,
-        Fault::BeyondLimit { joint: "panda_joint4", limit, .. } if (limit + 0.0698).abs() < 1e-15
+        Fault::Assembly(AssemblyFault::BeyondLimit { joint: "panda_joint4", limit, .. }) if (limit + 0.0698).abs() < 1e-15
     );
     assert!(is_told, "{fault}");
 }

@@ -10,6 +10,7 @@ mod catalogue;
 
 use std::hint::black_box;
 
+use holonom::error::StepFault;
 use holonom::{
     Fault, Mechanism, MechanismExt as _, StateParts as _, error::NotFinite, state::Array as _,
 };
@@ -233,8 +234,10 @@ fn timed(
     let count = if size > 100 { FEW } else { states.len() };
     let states = states[..count.min(states.len())].to_vec();
     let mut out = vec![0.0; size];
-    let unsolved = |_| Fault::RatesNotFinite {
-        origin: NotFinite::Unknown,
+    let unsolved = |_| {
+        Fault::Step(StepFault::RatesNotFinite {
+            origin: NotFinite::Unknown,
+        })
     };
     let work = move || {
         for state in &states {

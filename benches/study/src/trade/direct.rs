@@ -1,5 +1,6 @@
 //! The direct correction: onto the constraints by the pseudo-inverse of the Jacobian, once.
 
+use holonom::error::{StartFault, StepFault};
 use holonom::{
     Fault, Mechanism, Real, Report, StateParts,
     mechanism::{BodyInfo, BodyKind},
@@ -66,9 +67,9 @@ impl<S: Real> DirectCorrection<S> {
     /// length 1. Returns what is left beyond the tolerance, relative to its row, else zero.
     ///
     /// # Errors
-    /// [`Fault::NotConverged`] where more than `sqrt(tolerance)` is left,
-    /// [`Fault::StateNotFinite`], [`Fault::ZeroOrientation`], or [`Fault::Setting`] for a
-    /// tolerance that is not finite and positive. The state is then as before.
+    /// [`StepFault::NotConverged`] where more than `sqrt(tolerance)` is left,
+    /// [`StepFault::StateNotFinite`], [`StepFault::ZeroOrientation`], or [`StartFault::Setting`]
+    /// for a tolerance that is not finite and positive. The state is then as before.
     pub fn correct<M: Mechanism>(
         &self,
         constants: &M::Constants<S>,
@@ -77,10 +78,10 @@ impl<S: Real> DirectCorrection<S> {
     ) -> Result<f64, Fault> {
         let tolerance = self.tolerance.to_f64();
         if !(tolerance.is_finite() && tolerance > 0.0) {
-            return Err(Fault::Setting {
+            return Err(Fault::Start(StartFault::Setting {
                 name: "tolerance of the direct correction",
                 value: tolerance,
-            });
+            }));
         }
         let mut given = with_unit_orientations::<S, M>(state)?;
         M::rewrap(constants, &mut given);
@@ -223,12 +224,12 @@ impl Linear {
             return Ok((given, beyond(before)));
         }
         let (row, _) = self.worst();
-        Err(Fault::NotConverged {
+        Err(Fault::Step(StepFault::NotConverged {
             iterations: 1,
             residual: self.violation[row].abs(),
             joint: self.joint_of(row),
             alpha: None,
-        })
+        }))
     }
 
     fn joint_of(&self, row: usize) -> Option<&'static str> {
@@ -375,13 +376,13 @@ fn with_unit_orientations<S: Real, M: Mechanism>(
         .iter()
         .chain(state.velocities().as_slice());
     if !numbers.into_iter().all(|x| x.is_finite()) {
-        return Err(Fault::StateNotFinite);
+        return Err(Fault::Step(StepFault::StateNotFinite));
     }
     for body in rigid(&M::REPORT) {
         let p = &mut state.coordinates_mut().as_mut_slice()[body.coordinate + 3..][..4];
         let length = p.iter().fold(S::zero(), |sum, &e| sum + e * e).sqrt();
         if length == S::zero() {
-            return Err(Fault::ZeroOrientation { body: body.name });
+            return Err(Fault::Step(StepFault::ZeroOrientation { body: body.name }));
         }
         p.iter_mut().for_each(|e| *e = e.quotient(length));
     }

@@ -3,6 +3,7 @@
 use super::pairs::{Rods, Spinning, angles, compared, pairs, starts};
 use super::{Equation, Moves, curve, curved, distance, equation, span};
 use crate::Fault;
+use crate::error::StartFault;
 use crate::integrate::{
     Adams, Advance as _, Counts, DormandPrince, DormandPrince853, Integration as _,
     Integrator as _, Method, StepLimits, System, TimeSpan, Tolerance,
@@ -349,7 +350,10 @@ fn limits_are_kept() {
         let start = held
             .least_step(value)
             .start(&mut system, span(1.0, 1.0), curve(0.0));
-        assert!(matches!(start, Err(Fault::Setting { .. })));
+        assert!(matches!(
+            start,
+            Err(Fault::Start(StartFault::Setting { .. }))
+        ));
     }
 }
 

@@ -3,6 +3,7 @@
 use super::pairs::{Spinning, pairs, starts};
 use super::{Spring, curve, curved, distance, equation, errors, order, span};
 use crate::Fault;
+use crate::error::AnalysisFault;
 use crate::integrate::{
     AdamsBashforthMoulton4, Advance as _, Counts, Integration as _, Integrator as _, Rk4, System,
     TimeSpan,
@@ -191,9 +192,9 @@ fn single_precision_and_faults() {
         type State = [f64; 2];
         fn rates(&mut self, time: f64, state: &[f64; 2]) -> Result<[f64; 2], Fault> {
             if time > 0.55 {
-                return Err(Fault::NotDriven {
+                return Err(Fault::Analysis(AnalysisFault::NotDriven {
                     degrees_of_freedom: 1,
-                });
+                }));
             }
             Ok(curved(time, state))
         }
@@ -215,7 +216,10 @@ fn single_precision_and_faults() {
             break fault;
         }
     };
-    assert!(matches!(fault, Fault::NotDriven { .. }), "{fault}");
+    assert!(
+        matches!(fault, Fault::Analysis(AnalysisFault::NotDriven { .. })),
+        "{fault}"
+    );
     assert!((integration.time() - 0.5).abs() < 1e-15 && integration.counts().accepted == 5);
     assert!(distance(*integration.state(), curve(0.5)) < 1e-4);
 }

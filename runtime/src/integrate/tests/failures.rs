@@ -1,7 +1,7 @@
 //! What integrators do when they cannot go on.
 
 use super::*;
-use crate::error::NotFinite;
+use crate::error::{NotFinite, StartFault, StepFault};
 
 /// How an integration from 1 towards two seconds ends: the fault, and the last good time and state.
 fn ended<I: Integrator<f64, Y>, Y: System<f64, State = [f64; 1]>>(
@@ -20,10 +20,14 @@ fn ended<I: Integrator<f64, Y>, Y: System<f64, State = [f64; 1]>>(
 fn a_solution_that_blows_up_ends_with_an_underflow_of_the_step() {
     let mut system = equation(|_: f64, &[y]: &[f64; 1]| [y * y]);
     let (fault, time, [end]) = ended(DormandPrince::default(), &mut system);
-    assert!(matches!(fault, Fault::StepSizeUnderflow { step, joint: None, .. } if step < 1e-14));
+    assert!(
+        matches!(fault, Fault::Step(StepFault::SizeUnderflow { step, joint: None, .. }) if step < 1e-14)
+    );
     assert!(time < 1.001 && time > 0.999 && end.is_finite() && end > 1e6);
     let (fault, time, [end]) = ended(Adams::default(), &mut system);
-    assert!(matches!(fault, Fault::StepSizeUnderflow { step, joint: None, .. } if step < 1e-14));
+    assert!(
+        matches!(fault, Fault::Step(StepFault::SizeUnderflow { step, joint: None, .. }) if step < 1e-14)
+    );
     assert!(time < 1.001 && time > 0.999 && end.is_finite() && end > 1e6);
 }
 
@@ -37,9 +41,9 @@ impl System<f64> for Cliff {
         if time < 1.0 {
             Ok([-state[0]])
         } else {
-            Err(Fault::RatesNotFinite {
+            Err(Fault::Step(StepFault::RatesNotFinite {
                 origin: NotFinite::Unknown,
-            })
+            }))
         }
     }
 }
@@ -50,7 +54,10 @@ fn a_fault_leaves_the_last_good_state() {
         ended(DormandPrince::default(), &mut Cliff),
         ended(Adams::default(), &mut Cliff),
     ] {
-        assert!(matches!(fault, Fault::RatesNotFinite { .. }));
+        assert!(matches!(
+            fault,
+            Fault::Step(StepFault::RatesNotFinite { .. })
+        ));
         assert!(time < 1.0 && time > 1.0 - 1e-12);
         assert!((end - (-time).exp()).abs() < 1e-5);
     }
@@ -68,14 +75,22 @@ fn rates_of_nan_leave_the_last_good_state() {
     let nan = |time: f64, &[y]: &[f64; 1]| [if time < 1.0 { -y } else { f64::NAN }];
     let mut system = equation(nan);
     let (fault, time, [end]) = ended(DormandPrince::default(), &mut system);
-    assert!(matches!(fault, Fault::StepSizeUnderflow { .. }) && time < 1.0 && end.is_finite());
+    assert!(
+        matches!(fault, Fault::Step(StepFault::SizeUnderflow { .. }))
+            && time < 1.0
+            && end.is_finite()
+    );
     let (fault, time, [end]) = ended(Adams::default(), &mut system);
-    assert!(matches!(fault, Fault::StepSizeUnderflow { .. }) && time < 1.0 && end.is_finite());
+    assert!(
+        matches!(fault, Fault::Step(StepFault::SizeUnderflow { .. }))
+            && time < 1.0
+            && end.is_finite()
+    );
 
     let mut state = [1.0];
     assert_eq!(
         Rk4.step(&mut system, 0.5, &mut state, 1.0),
-        Err(Fault::StateNotFinite)
+        Err(Fault::Step(StepFault::StateNotFinite))
     );
     assert_eq!(state, [1.0]);
 }
@@ -91,9 +106,9 @@ struct Hole {
     calls: (usize, usize),
 }
 
-const WHY: Fault = Fault::RatesNotFinite {
+const WHY: Fault = Fault::Step(StepFault::RatesNotFinite {
     origin: NotFinite::Body("a body"),
-};
+});
 
 impl System<f64> for Hole {
     type State = [f64; 1];
@@ -110,7 +125,7 @@ impl System<f64> for Hole {
     fn stage(&mut self, time: f64, state: &[f64; 1], rates: &mut [f64; 1]) -> Result<(), Fault> {
         self.calls.0 += 1;
         if time > self.time {
-            *rates = [self.left.ok_or(Fault::StateNotFinite)?];
+            *rates = [self.left.ok_or(Fault::Step(StepFault::StateNotFinite))?];
         } else {
             *rates = [-state[0]];
         }
@@ -225,9 +240,15 @@ fn settings_that_are_not_positive_are_refused() {
         ] {
             let start =
                 DormandPrince::new(tolerance).start(&mut system, span(1.0, 1.0), curve(0.0));
-            assert!(matches!(start, Err(Fault::Setting { .. })));
+            assert!(matches!(
+                start,
+                Err(Fault::Start(StartFault::Setting { .. }))
+            ));
         }
         let start = Rk4::every(value).start(&mut system, span(1.0, 1.0), curve(0.0));
-        assert!(matches!(start, Err(Fault::Setting { name: "step", .. })));
+        assert!(matches!(
+            start,
+            Err(Fault::Start(StartFault::Setting { name: "step", .. }))
+        ));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Equation, Spring, curve, curved, distance, equation, errors, order, span};
 use crate::Fault;
+use crate::error::{AnalysisFault, StepFault};
 use crate::integrate::{
     Advance as _, ImplicitMidpoint, Integration as _, Integrator as _, NoStages, OneStep as _,
     Slopes, StepStart, System,
@@ -128,7 +129,7 @@ fn a_step_too_long_for_the_iteration_is_refused() {
     for rate in [1.95, 2.0, 2.5, 1e6, 1e30] {
         let mut state = [1.0];
         let refused = ImplicitMidpoint.step(&mut decay(rate), 0.0, &mut state, 1.0);
-        let Err(Fault::NoFixedPoint { step, iterations }) = refused else {
+        let Err(Fault::Step(StepFault::NoFixedPoint { step, iterations })) = refused else {
             panic!("{rate}: {refused:?} {state:?}");
         };
         assert!(step == 1.0 && iterations <= 100 && state == [1.0]);
@@ -157,9 +158,9 @@ fn where_rates_end_the_system_says_why() {
         type State = [f64; 1];
         fn rates(&mut self, time: f64, state: &[f64; 1]) -> Result<[f64; 1], Fault> {
             if time > self.0 {
-                Err(Fault::NotDriven {
+                Err(Fault::Analysis(AnalysisFault::NotDriven {
                     degrees_of_freedom: 1,
-                })
+                }))
             } else {
                 Ok([-state[0]])
             }
@@ -176,9 +177,19 @@ fn where_rates_end_the_system_says_why() {
     }
     let mut state = [1.0];
     let refused = ImplicitMidpoint.step(&mut Until(0.04), 0.0, &mut state, 0.1);
-    assert!(matches!(refused, Err(Fault::NotDriven { .. })) && state == [1.0]);
+    assert!(
+        matches!(
+            refused,
+            Err(Fault::Analysis(AnalysisFault::NotDriven { .. }))
+        ) && state == [1.0]
+    );
     let refused = ImplicitMidpoint.step(&mut Until(-1.0), 0.0, &mut state, 0.1);
-    assert!(matches!(refused, Err(Fault::NotDriven { .. })) && state == [1.0]);
+    assert!(
+        matches!(
+            refused,
+            Err(Fault::Analysis(AnalysisFault::NotDriven { .. }))
+        ) && state == [1.0]
+    );
     let mut system: Equation<'_, _, 1> = equation(|_: f32, &[y]: &[f32; 1]| [-y]);
     let mut single = [1.0];
     ImplicitMidpoint

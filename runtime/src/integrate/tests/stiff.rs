@@ -5,7 +5,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{Moves, curve, curved, distance, equation, span};
-use crate::error::Fault;
+use crate::error::{Fault, StartFault, StepFault};
 use crate::integrate::{
     Advance as _, Bdf, Counts, Integration as _, Integrator, RadauIIA, System, Tolerance,
 };
@@ -295,7 +295,7 @@ fn corrections_after_steps_do_no_harm() {
 /// Rates that are not finite from 0.5 on, and whether it says why.
 struct Hole(bool);
 
-const WHY: Fault = Fault::ZeroOrientation { body: "rod" };
+const WHY: Fault = Fault::Step(StepFault::ZeroOrientation { body: "rod" });
 
 impl System<f64> for Hole {
     type State = [f64; 1];
@@ -303,7 +303,7 @@ impl System<f64> for Hole {
     fn rates(&mut self, time: f64, state: &[f64; 1]) -> Result<[f64; 1], Fault> {
         match time > 0.5 {
             true if self.0 => Err(WHY),
-            true => Err(Fault::StateNotFinite),
+            true => Err(Fault::Step(StepFault::StateNotFinite)),
             false => Ok([-state[0]]),
         }
     }
@@ -323,7 +323,14 @@ fn held_up(method: impl Integrator<f64, Hole>) {
                 break fault;
             }
         };
-        assert_eq!(fault, if told { WHY } else { Fault::StateNotFinite });
+        assert_eq!(
+            fault,
+            if told {
+                WHY
+            } else {
+                Fault::Step(StepFault::StateNotFinite)
+            }
+        );
         assert!(integration.time() <= 0.5 && integration.time() > 0.5 - 1e-12);
         assert!((integration.state()[0] - (-integration.time()).exp()).abs() < 1e-6);
     }
@@ -424,10 +431,10 @@ fn settings_that_are_none_are_refused() {
         for fault in [of_radau.err(), of_bdf.err()] {
             let is_named = matches!(
                 fault,
-                Some(Fault::Setting {
+                Some(Fault::Start(StartFault::Setting {
                     name: "relative tolerance",
                     ..
-                })
+                }))
             );
             assert!(is_named, "{fault:?}");
         }

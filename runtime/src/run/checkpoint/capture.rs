@@ -108,10 +108,10 @@ impl<S: Real, M: Mechanism> Observed<'_, S, M> {
     }
 
     /// The integration under way.
-    fn segment_of(&mut self, begun: &Begun<S>) -> Result<Segment<S>, Fault> {
+    fn segment_of(&mut self, begun: &Begun<S>) -> Result<Segment<S>, CheckpointFault> {
         let (memory, is_kept) = Kept::of(|memory| self.driver.march.remember(memory));
         if !is_kept {
-            return Err(Fault::Checkpoint(CheckpointFault::Forgetful));
+            return Err(CheckpointFault::Forgetful);
         }
         let mut state = Vec::new();
         self.driver

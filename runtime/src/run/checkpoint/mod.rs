@@ -20,7 +20,7 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-use crate::error::{CheckpointFault, Fault};
+use crate::error::CheckpointFault;
 use crate::integrate::{Memory, Tape};
 use crate::math::scalar::Real;
 use crate::mechanism::at::At;
@@ -179,7 +179,7 @@ impl<M: Mechanism, S: Real> Plan<S, M> for &Checkpoint<M, S> {
         integrator: &I,
         formulation: &F,
         joints: bool,
-    ) -> Result<Option<Past<'_, S, M>>, Fault> {
+    ) -> Result<Option<Past<'_, S, M>>, CheckpointFault> {
         let refused = if self.joints != joints {
             Some(CheckpointFault::Coordinates {
                 joints: self.joints,
@@ -192,7 +192,7 @@ impl<M: Mechanism, S: Real> Plan<S, M> for &Checkpoint<M, S> {
             None
         };
         if let Some(fault) = refused {
-            return Err(Fault::Checkpoint(fault));
+            return Err(fault);
         }
         let segment = self.segment.as_ref().map(|segment| PastSegment {
             start: segment.start,

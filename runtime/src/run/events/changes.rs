@@ -1,6 +1,6 @@
 //! How often modes of interactions change at once.
 
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault};
 use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
@@ -50,11 +50,11 @@ impl<S: Real> Changes<S> {
         self.at_once = if at_once { self.at_once + 1 } else { 0 };
         self.last = Some(time);
         if self.at_once > AT_ONCE + OF_EACH * list.len() {
-            return Err(Fault::EndlessModes {
+            return Err(Fault::Mode(ModeFault::Endless {
                 joint: found.interaction.name(),
                 changes: self.at_once,
                 time: time.to_f64(),
-            });
+            }));
         }
         Ok(())
     }

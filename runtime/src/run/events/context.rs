@@ -94,7 +94,8 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
     /// Engages dry friction, a brake or a clutch.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`]; [`Fault::MisplacedSetting`] of limits.
+    /// [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction);
+    /// [`StartFault::MisplacedSetting`](crate::error::StartFault::MisplacedSetting) of limits.
     pub fn engage(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
         engage(self.interactions, interaction, true)
     }
@@ -116,8 +117,9 @@ impl<'e, S: Real, M: Mechanism> Event<'e, S, M> {
     /// rates of one joint alone.
     ///
     /// # Errors
-    /// [`Fault::InteractionSetting`] of a restitution that is not from 0 to 1;
-    /// [`Fault::NoMode`] where the joint cannot move. The state is then as before.
+    /// [`StartFault::InteractionSetting`](crate::error::StartFault::InteractionSetting) of a
+    /// restitution that is not from 0 to 1; [`ModeFault::NoMode`](crate::error::ModeFault::NoMode)
+    /// where the joint cannot move. The state is then as before.
     pub fn impact(
         &mut self,
         quantity: JointQuantity<M>,

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use crate::assembly::consistent_start::check_start;
 use crate::dynamics::equations::Equations;
-use crate::error::Fault;
+use crate::error::{Fault, StartFault, StepFault};
 use crate::math::scalar::Real;
 use crate::measure::view::View;
 use crate::mechanism::at::{At, StateAt};
@@ -383,17 +383,17 @@ fn checked<S: Real, M: Mechanism>(
 /// The fault of a state as that of the handler which has set it.
 fn after_handler(event: &'static str, fault: Fault) -> Fault {
     match fault {
-        Fault::InconsistentStart {
+        Fault::Start(StartFault::Inconsistent {
             joint,
             quantity,
             violation,
             ..
-        } => Fault::HandlerOpens {
+        }) => Fault::Step(StepFault::HandlerOpens {
             event,
             joint,
             quantity,
             violation,
-        },
+        }),
         fault => fault,
     }
 }

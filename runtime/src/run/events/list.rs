@@ -2,8 +2,8 @@
 
 use core::ops::ControlFlow;
 
-use crate::error::Fault;
 use crate::error::setting::positive;
+use crate::error::{Fault, StepFault};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 #[cfg(feature = "std")]
@@ -244,10 +244,10 @@ impl<S: Real, M: Mechanism> Hybrid<S, M> {
             positive("period", period.period)?;
             let latest = start.abs().max(end.abs());
             if period.period < S::constant(64.0) * latest.ulp() {
-                return Err(Fault::StepTooShort {
+                return Err(Fault::Step(StepFault::TooShort {
                     step: period.period.to_f64(),
                     time: latest.to_f64(),
-                });
+                }));
             }
             period.begin(start);
             Ok(())

@@ -90,9 +90,11 @@ where
     /// ```
     ///
     /// # Errors of the run
-    /// [`Fault::EventNotANumber`] of a reading, [`Fault::Chattering`] of a condition that fires
+    /// [`StepFault::EventNotANumber`](crate::error::StepFault::EventNotANumber) of a reading,
+    /// [`StepFault::Chattering`](crate::error::StepFault::Chattering) of a condition that fires
     /// without end, those of a start for a state that a handler sets, and the fault that a handler
-    /// returns. [`Fault::NotVerified`] of a run that is to be [`Simulation::verified`].
+    /// returns. [`StartFault::NotVerified`](crate::error::StartFault::NotVerified) of a run that is
+    /// to be [`Simulation::verified`].
     #[must_use]
     pub fn on<G, K, R>(
         self,
@@ -147,9 +149,11 @@ where
     /// ```
     ///
     /// # Errors of the run
-    /// [`Fault::Setting`] of a period that is not positive, [`Fault::StepTooShort`] of one that the
-    /// time does not resolve, and the fault that the controller returns. [`Fault::NotVerified`] of
-    /// a run that is to be [`Simulation::verified`].
+    /// [`StartFault::Setting`](crate::error::StartFault::Setting) of a period that is not positive,
+    /// [`StepFault::TooShort`](crate::error::StepFault::TooShort) of one that the time does not
+    /// resolve, and the fault that the controller returns.
+    /// [`StartFault::NotVerified`](crate::error::StartFault::NotVerified) of a run that is to be
+    /// [`Simulation::verified`].
     #[must_use]
     pub fn every_period<K, R>(
         self,
@@ -176,9 +180,11 @@ where
     /// remembers: some states, with implicit methods the Jacobian as well.
     ///
     /// # Errors of the run
-    /// [`Fault::Setting`] of zero steps. [`Fault::Checkpoint`] with a method of your own that does
-    /// not hand over what it remembers. The fault that the closure returns. [`Fault::NotVerified`]
-    /// of a run that is to be [`Simulation::verified`].
+    /// [`StartFault::Setting`](crate::error::StartFault::Setting) of zero steps.
+    /// [`Fault::Checkpoint`] with a method of your own that does not hand over what it remembers.
+    /// The fault that the closure returns.
+    /// [`StartFault::NotVerified`](crate::error::StartFault::NotVerified) of a run that is to be
+    /// [`Simulation::verified`].
     #[cfg(feature = "std")]
     #[must_use]
     pub fn checkpoints<K, R>(self, steps: usize, keep: K) -> With<'a, P, I, H, Keeping<K>>

@@ -57,8 +57,9 @@ impl<P: Solvable, K: Steps<P>> Stepper<P, K> {
     /// ```
     ///
     /// # Errors
-    /// As [`Stepper::step_dense`], and [`Fault::EventNotANumber`] of a reading. State and time are
-    /// then as before.
+    /// As [`Stepper::step_dense`], and
+    /// [`StepFault::EventNotANumber`](crate::error::StepFault::EventNotANumber) of a reading. State
+    /// and time are then as before.
     pub fn step_until(
         &mut self,
         state: &mut State<P>,

@@ -2,7 +2,7 @@
 
 use crate::dynamics::evaluate::Evaluate;
 use crate::dynamics::{Bodies, Dynamics, Solvable, State};
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault, ReadingFault};
 use crate::integrate::{Scheme, StepWithin, System as _};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
@@ -30,8 +30,8 @@ where
     /// before the first step.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
-    pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, Fault> {
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`].
+    pub fn mode(&self, interaction: InteractionHandle<M>) -> Result<InteractionMode, ReadingFault> {
         let (_, tracked) = named(self.dynamics.tracked(), interaction)?;
         Ok(tracked.told_mode())
     }
@@ -40,7 +40,8 @@ where
     /// evaluation.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`], the fault of the evaluation.
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`], the fault of the
+    /// evaluation.
     pub fn effort(&self, interaction: InteractionHandle<M>, state: &State<P>) -> Result<S, Fault> {
         let (place, _) = named(self.dynamics.tracked(), interaction)?;
         let mut effort = S::zero();
@@ -53,8 +54,11 @@ where
     /// The last impulse of an interaction so far, if there was one.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`], [`Fault::NoSuchLimits`].
-    pub fn impact(&self, interaction: InteractionHandle<M>) -> Result<Option<Impact<S>>, Fault> {
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`].
+    pub fn impact(
+        &self,
+        interaction: InteractionHandle<M>,
+    ) -> Result<Option<Impact<S>>, ReadingFault> {
         let (_, tracked) = named(self.dynamics.tracked(), interaction)?;
         Ok(tracked.status.impact)
     }
@@ -62,7 +66,8 @@ where
     /// Engages dry friction, a brake or a clutch, from the next step on.
     ///
     /// # Errors
-    /// [`Fault::NoSuchInteraction`]; [`Fault::MisplacedSetting`] of limits.
+    /// [`ReadingFault::NoSuchInteraction`];
+    /// [`StartFault::MisplacedSetting`](crate::error::StartFault::MisplacedSetting) of limits.
     pub fn engage(&mut self, interaction: InteractionHandle<M>) -> Result<(), Fault> {
         engage(self.dynamics.tracked_mut(), interaction, true)
     }
@@ -154,11 +159,11 @@ where
             }
         }
         let list = dynamics.tracked();
-        Err(Fault::EndlessModes {
+        Err(Fault::Mode(ModeFault::Endless {
             joint: list.first().map_or("", |first| first.interaction.name()),
             changes,
             time: time.to_f64(),
-        })
+        }))
     }
 }
 

@@ -4,7 +4,7 @@
 //! array as long as that of the parameters, where the sides of the switches have their places. A
 //! run of a mechanism without switches has none of these arrays.
 
-use crate::error::Fault;
+use crate::error::{Fault, ModeFault};
 use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
@@ -133,19 +133,19 @@ impl<S: Real, M: Mechanism> Switching<S, M> {
 /// A law whose field points to its switch from both sides.
 #[cold]
 pub(crate) fn sliding<S: Real>(switch: &Switch, time: S) -> Fault {
-    Fault::SlidingLaw {
+    Fault::Mode(ModeFault::SlidingLaw {
         law: switch.law,
         expression: switch.expression,
         time: time.to_f64(),
-    }
+    })
 }
 
 /// A switch that is not a number, or that cannot be followed.
 #[cold]
 pub(crate) fn undecided(switch: &Switch, time: f64) -> Fault {
-    Fault::SwitchUndecided {
+    Fault::Mode(ModeFault::SwitchUndecided {
         law: switch.law,
         expression: switch.expression,
         time,
-    }
+    })
 }

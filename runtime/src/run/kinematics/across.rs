@@ -7,7 +7,7 @@
 
 use super::motion::{Found, Motion};
 use crate::dynamics::Problem;
-use crate::error::Fault;
+use crate::error::{Fault, StepFault};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
@@ -115,11 +115,11 @@ where
             time,
             state,
             accelerations,
-            evaluation: Err(Fault::Singular {
+            evaluation: Err(Fault::Step(StepFault::Singular {
                 joint,
                 name: M::REPORT.joints.get(joint).map_or("", |info| info.name),
                 relative_pivot: pivot.relative.to_f64(),
-            }),
+            })),
         };
         Some((found, first + second))
     }

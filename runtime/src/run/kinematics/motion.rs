@@ -7,7 +7,7 @@ use crate::constraints::projection::Projection;
 use crate::constraints::retract::advanced;
 use crate::constraints::row_units::characteristic_length;
 use crate::dynamics::{Dynamics, Problem, Solvable};
-use crate::error::Fault;
+use crate::error::{AnalysisFault, Fault, StepFault};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
@@ -45,7 +45,7 @@ pub(super) struct Found<S: Real, M: Mechanism> {
     pub(super) time: S,
     pub(super) state: M::State<S>,
     pub(super) accelerations: M::Velocities<S>,
-    /// [`Fault::Singular`] where the equations do not determine the motion.
+    /// [`StepFault::Singular`] where the equations do not determine the motion.
     pub(super) evaluation: Result<Evaluation<S, M>, Fault>,
 }
 
@@ -120,7 +120,7 @@ where
         let determined = share < S::constant(FREE);
         if !determined {
             let share = share.to_f64();
-            return Err(Fault::Undetermined { share });
+            return Err(Fault::Analysis(AnalysisFault::MotionLeftFree { share }));
         }
         let (evaluation, _) = self.dynamics.evaluate(time, &state)?;
         self.iterations += correction.iterations;
@@ -225,9 +225,11 @@ where
     /// step.
     fn may_be_singular(&self, fault: &Fault) -> bool {
         match fault {
-            Fault::Undetermined { .. } | Fault::Singular { .. } => true,
+            Fault::Analysis(AnalysisFault::MotionLeftFree { .. })
+            | Fault::Step(StepFault::Singular { .. }) => true,
             // Velocities are lost first.
-            Fault::NotConverged { .. } | Fault::Jump { .. } => {
+            Fault::Step(StepFault::NotConverged { .. })
+            | Fault::Analysis(AnalysisFault::Jump { .. }) => {
                 self.passage.distance() < S::constant(TURN)
             }
             _ => false,
@@ -293,17 +295,17 @@ where
     fn ended(&self, from: &Found<S, M>, fault: Fault) -> Fault {
         let pivot = self
             .pivot(from)
-            .filter(|_| matches!(fault, Fault::Undetermined { .. }));
+            .filter(|_| matches!(fault, Fault::Analysis(AnalysisFault::MotionLeftFree { .. })));
         let Some(pivot) = pivot else { return fault };
         let joint = pivot.joint.to_f64() as usize;
         let Some(info) = M::REPORT.joints.get(joint) else {
             return fault;
         };
-        Fault::Singular {
+        Fault::Step(StepFault::Singular {
             joint,
             name: info.name,
             relative_pivot: pivot.relative.to_f64(),
-        }
+        })
     }
 
     /// No pose was found that goes on with the motion.
@@ -316,11 +318,11 @@ where
         let is_singular = distance * distance < S::constant(NEARLY_VANISHED);
         let joint = pivot.filter(|_| is_singular);
         let joint = joint.and_then(|pivot| M::REPORT.joints.get(pivot.joint.to_f64() as usize));
-        Fault::Jump {
+        Fault::Analysis(AnalysisFault::Jump {
             body: M::REPORT.bodies.get(body).map_or("", |info| info.name),
             size: size.to_f64(),
             joint: joint.map(|info| info.name),
-        }
+        })
     }
 }
 
@@ -328,10 +330,8 @@ where
 fn retried(fault: &Fault) -> bool {
     matches!(
         fault,
-        Fault::NotConverged { .. }
-            | Fault::StateNotFinite
-            | Fault::Jump { .. }
-            | Fault::Undetermined { .. }
-            | Fault::Singular { .. }
+        Fault::Step(
+            StepFault::NotConverged { .. } | StepFault::StateNotFinite | StepFault::Singular { .. }
+        ) | Fault::Analysis(AnalysisFault::Jump { .. } | AnalysisFault::MotionLeftFree { .. })
     )
 }

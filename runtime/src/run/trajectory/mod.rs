@@ -14,7 +14,7 @@ use core::fmt::{self, Debug};
 use core::ops::RangeInclusive;
 use std::vec::Vec;
 
-use crate::error::Fault;
+use crate::error::ReadingFault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
@@ -131,8 +131,8 @@ impl<M: Mechanism, S: Real> Trajectory<M, S> {
     /// The state at a time (s); at the time of an event the one with which the run went on.
     ///
     /// # Errors
-    /// [`Fault::OutsideTrajectory`].
-    pub fn at(&self, time: S) -> Result<M::State<S>, Fault> {
+    /// [`ReadingFault::OutsideTrajectory`].
+    pub fn at(&self, time: S) -> Result<M::State<S>, ReadingFault> {
         let place = self.pieces.partition_point(|piece| piece.start <= time);
         self.within(place.checked_sub(1), time)
     }
@@ -140,14 +140,14 @@ impl<M: Mechanism, S: Real> Trajectory<M, S> {
     /// The same from before: at the time of an event the state that was found.
     ///
     /// # Errors
-    /// [`Fault::OutsideTrajectory`].
-    pub fn before(&self, time: S) -> Result<M::State<S>, Fault> {
+    /// [`ReadingFault::OutsideTrajectory`].
+    pub fn before(&self, time: S) -> Result<M::State<S>, ReadingFault> {
         let place = self.pieces.partition_point(|piece| piece.end < time);
         self.within(Some(place), time)
     }
 
     /// The state in a piece, which must be there and hold the time.
-    fn within(&self, place: Option<usize>, time: S) -> Result<M::State<S>, Fault> {
+    fn within(&self, place: Option<usize>, time: S) -> Result<M::State<S>, ReadingFault> {
         let piece = place.and_then(|place| self.pieces.get(place));
         let piece = piece.filter(|piece| piece.start <= time && time <= piece.end);
         let state = piece.and_then(|piece| {
@@ -165,7 +165,7 @@ impl<M: Mechanism, S: Real> Trajectory<M, S> {
         });
         state.ok_or_else(|| {
             let (first, last) = (self.pieces.first(), self.pieces.last());
-            Fault::OutsideTrajectory {
+            ReadingFault::OutsideTrajectory {
                 time: time.to_f64(),
                 start: first.map_or(f64::NAN, |piece| piece.start.to_f64()),
                 end: last.map_or(f64::NAN, |piece| piece.end.to_f64()),

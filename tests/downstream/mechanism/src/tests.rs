@@ -3,6 +3,7 @@
 use std::vec::Vec;
 
 use downstream_joints::differences::{assert_derivatives, assert_near, constraints, disturbed};
+use mech::error::StepFault;
 use mech::nalgebra::Vector3;
 use mech::prelude::*;
 
@@ -158,7 +159,7 @@ fn errors_at_run_time_name_a_joint_of_another_crate() {
         .inconsistent_start()
         .run(0.0..=1.0, every(0.5), |_| ControlFlow::Continue(()))
         .unwrap_err();
-    let Fault::Singular { name, .. } = error.fault else {
+    let Fault::Step(StepFault::Singular { name, .. }) = error.fault else {
         panic!("{}", error.fault);
     };
     assert!(["arm", "spare"].contains(&name), "{name}");

@@ -1,6 +1,7 @@
 //! Joint coordinates describe no joint that is open.
 
 use super::*;
+use holonom::error::StartFault;
 
 fn refused<M: JointCoordinates>(
     mechanism: &M,
@@ -29,12 +30,12 @@ fn open_joints_are_refused() {
     Crane::set_pose(&mut open, handles.load, pose);
     let fault = dynamics.state_of(&open).expect_err("the hook is open");
     assert_eq!(refused(&crane, open).fault, fault);
-    let Fault::InconsistentStart {
+    let Fault::Start(StartFault::Inconsistent {
         joint,
         quantity,
         violation,
         is_final: true,
-    } = fault
+    }) = fault
     else {
         panic!("{fault}");
     };
@@ -51,11 +52,11 @@ fn open_joints_are_refused() {
     assert!(
         matches!(
             fault,
-            Fault::InconsistentStart {
+            Fault::Start(StartFault::Inconsistent {
                 joint: "elbow",
                 quantity: Quantity::AngularVelocity,
                 ..
-            }
+            })
         ),
         "{fault}"
     );
@@ -86,10 +87,10 @@ fn open_joints_are_refused() {
     assert!(
         matches!(
             fault,
-            Fault::InconsistentStart {
+            Fault::Start(StartFault::Inconsistent {
                 quantity: Quantity::Length,
                 ..
-            }
+            })
         ),
         "{fault}"
     );
