@@ -224,6 +224,37 @@ where
         self.with_forces(ForceLaw(law))
     }
 
+    pub(crate) fn with_forces<A2: AppliedForces<S, M>>(
+        self,
+        forces: A2,
+    ) -> Dynamics<WithForces<P, A2>> {
+        self.exchange_forces(|_| forces)
+    }
+
+    pub(crate) fn exchange_forces<A2: AppliedForces<S, M>>(
+        self,
+        exchange: impl FnOnce(A) -> A2,
+    ) -> Dynamics<WithForces<P, A2>> {
+        Dynamics {
+            parameters: self.parameters,
+            absolute: self.absolute,
+            own: self.own,
+            stabilisation: self.stabilisation,
+            formulation: self.formulation,
+            forces: exchange(self.forces),
+            iterations: self.iterations,
+            seen: self.seen,
+            has_counted: false,
+            near: self.near,
+            rigid: self.rigid,
+        }
+    }
+
+    /// The forces beyond the description.
+    pub(crate) fn applied_forces(&self) -> &A {
+        &self.forces
+    }
+
     /// The same in other coordinates.
     #[must_use]
     pub fn coordinates<C2: Coordinates<M>>(self) -> Dynamics<WithCoordinates<P, C2>> {
@@ -262,37 +293,6 @@ where
     #[must_use]
     pub fn orientation<O: Orientation>(self) -> Dynamics<WithCoordinates<P, Absolute<O>>> {
         self.coordinates()
-    }
-
-    pub(crate) fn with_forces<A2: AppliedForces<S, M>>(
-        self,
-        forces: A2,
-    ) -> Dynamics<WithForces<P, A2>> {
-        self.exchange_forces(|_| forces)
-    }
-
-    pub(crate) fn exchange_forces<A2: AppliedForces<S, M>>(
-        self,
-        exchange: impl FnOnce(A) -> A2,
-    ) -> Dynamics<WithForces<P, A2>> {
-        Dynamics {
-            parameters: self.parameters,
-            absolute: self.absolute,
-            own: self.own,
-            stabilisation: self.stabilisation,
-            formulation: self.formulation,
-            forces: exchange(self.forces),
-            iterations: self.iterations,
-            seen: self.seen,
-            has_counted: false,
-            near: self.near,
-            rigid: self.rigid,
-        }
-    }
-
-    /// The forces beyond the description.
-    pub(crate) fn applied_forces(&self) -> &A {
-        &self.forces
     }
 
     /// Takes the present parameters and inputs of the mechanism.

@@ -147,6 +147,20 @@ impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
         })
     }
 
+    /// Begins at a time (s).
+    #[must_use]
+    pub fn starting_at(mut self, time: P::Number) -> Self {
+        self.clock = Clock::at(time);
+        self
+    }
+
+    /// Corrects the state onto the constraints after every step.
+    #[must_use]
+    pub fn projection(mut self, projection: Projection<P::Number>) -> Self {
+        self.projection = Some(projection);
+        self
+    }
+
     /// Applies forces as a function of time and state of the bodies, see [`Loads`].
     #[must_use]
     pub fn forces<G>(self, law: G) -> Stepper<WithLaw<P, G>, K>
@@ -234,20 +248,6 @@ impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
     #[must_use]
     pub fn orientation<O: Orientation>(self) -> Stepper<WithCoordinates<P, Absolute<O>>, K> {
         self.coordinates()
-    }
-
-    /// Begins at a time (s).
-    #[must_use]
-    pub fn starting_at(mut self, time: P::Number) -> Self {
-        self.clock = Clock::at(time);
-        self
-    }
-
-    /// Corrects the state onto the constraints after every step.
-    #[must_use]
-    pub fn projection(mut self, projection: Projection<P::Number>) -> Self {
-        self.projection = Some(projection);
-        self
     }
 
     /// The time that was reached (s).
