@@ -1,7 +1,7 @@
 //! What an interaction can do along its quantity: efforts, impulses, and the ends of its modes.
 //!
-//! Efforts and impulses are positive upwards. Those of friction by load are over that load. All that
-//! is asked of a law by what solves for modes is asked here: another law is another answer.
+//! Efforts and impulses are positive upwards. Those of friction by load are over that load. What
+//! solves for efforts and modes asks a law nothing else: another law is another answer.
 
 use crate::math::scalar::Real;
 use crate::nonsmooth::bearing::Bearing;
