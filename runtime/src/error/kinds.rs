@@ -24,6 +24,12 @@ pub enum Fault {
         /// The body's field.
         body: &'static str,
     },
+    /// A body is `as_given` with a mass or a moment of inertia that is not positive. So bodies have
+    /// no equations of motion: accelerations and reactions are not known, nor impulses of events.
+    WithoutInertia {
+        /// The body's field.
+        body: &'static str,
+    },
     /// The mechanism has a state of the user's own, with a rate, which was asked to be left out.
     StateLeftOut {
         /// The state's field.

@@ -25,6 +25,11 @@ impl fmt::Display for Fault {
             Self::ZeroOrientation { body } => {
                 write!(f, "the Euler parameters of body `{body}` have no length")
             }
+            Self::WithoutInertia { body } => write!(
+                f,
+                "the mass or inertia of `{body}`, as given, is not positive: the mechanism moves by its joints, and bodies have no equations \
+                 for accelerations, reactions and impulses of events"
+            ),
             Self::StateLeftOut { state, by } => {
                 let why = match by {
                     LeavesOut::StepMethod => {

@@ -8,6 +8,7 @@ use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{Expr, ExprParen, parse_quote, token};
 
+use super::AS_GIVEN;
 use super::formula::product;
 use super::lumps::{Lump, about, norm, turned, unit};
 use super::reader::Reader;
@@ -27,6 +28,8 @@ pub(super) struct Solid {
     pub(super) position: [Number; 3],
     pub(super) orientation: [Number; 4],
     pub(super) shapes: Vec<Shape>,
+    /// See [`crate::model::Body::as_given`].
+    pub(super) as_given: bool,
 }
 
 /// Where a shape or a body is: its centre of mass (m, global), and Euler parameters from its axes
@@ -66,7 +69,7 @@ impl Reader<'_, '_> {
         let mass = pairs.optional("mass", self.faults);
         let density = pairs.optional("density", self.faults);
         let orientation = pairs.optional("orientation", self.faults);
-        for key in ["inertia", "inertia_axes", "position"] {
+        for key in ["inertia", "inertia_axes", "position", AS_GIVEN] {
             pairs.refuse(key, FOLLOWS, self.faults);
         }
         let shapes = self.written(single, several, true)?;
@@ -201,6 +204,7 @@ impl Reader<'_, '_> {
             position: position?,
             orientation: orientation?,
             shapes: vec![drawn?],
+            as_given: false,
         })
     }
 
@@ -362,6 +366,7 @@ impl Reader<'_, '_> {
             position: centre.map(Number::Literal),
             orientation: axes.map(Number::Literal),
             shapes: drawn.into_iter().collect::<Option<_>>()?,
+            as_given: false,
         })
     }
 
