@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::inertias::is_odd;
 use crate::mechanism::{Body, Joint, LinkFrame, Mechanism, Mimic, Motor, Options};
 use crate::names::{Names, snake_case, type_name};
 use crate::robot::Robot;
@@ -78,6 +79,7 @@ fn body(robot: &Robot, group: &Group, names: &mut Names) -> Body {
         shapes,
         visuals,
         is_free: false,
+        is_as_given: is_odd(group),
     }
 }
 

@@ -108,6 +108,15 @@ impl Inertia {
         tensor: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
     };
 
+    /// A mass at a point.
+    pub(crate) fn point(mass: f64, centre: Vector3<f64>) -> Self {
+        Self {
+            mass,
+            centre,
+            ..Self::ZERO
+        }
+    }
+
     /// What is given in a frame, in the frame in which that one is: `R I R^T`.
     pub(crate) fn carried(&self, frame: &Frame) -> Self {
         let r = &frame.rotation;
