@@ -7,10 +7,14 @@
     $python urdf/tests/survey/survey.py table target/survey --converter target/debug/holonom-urdf
     $python urdf/tests/survey/survey.py compare target/survey --converter target/debug/holonom-urdf
 
+    $python urdf/tests/survey/survey.py printed target/survey --converter target/debug/holonom-urdf
+
 `get` takes the packages of `PACKAGES` from PyPI and unpacks their URDF files. `table` runs the
 converter on each file that Pinocchio simulates, and counts reasons of refusals. `compare` writes a
 crate with some of the robots, builds it, and holds their accelerations at three random states to
 those of Pinocchio. It takes minutes; name parts of paths to choose robots (`compare DIR icub`).
+`printed` compiles nothing: it reads the structs that are printed of all files, and holds their mass
+matrices and efforts of gravity, computed here, to those of Pinocchio.
 
 None of the files is part of this repository. Each has the licence that its package declares.
 """
@@ -164,6 +168,22 @@ def mimics_and_damping(path):
     return damping, mimics
 
 
+def singles_of(model):
+    """The joints, and the places of their rates."""
+    singles = {}
+    for i in range(1, model.njoints):
+        if model.joints[i].nv != 1:
+            raise NotImplementedError("a joint of more than one motion")
+        singles[model.names[i]] = model.joints[i].idx_v
+    return singles
+
+
+def names_of(source):
+    """Names in the file of the joints of one motion, in the order of the fields."""
+    listed = re.search(r"JOINT_NAMES: .*?= \[(.*?)\];", source, re.S).group(1)
+    return json.loads(f"[{listed.strip().rstrip(',')}]")
+
+
 class Reference:
     """Random states of a robot, and what Pinocchio knows of them."""
 
@@ -172,11 +192,7 @@ class Reference:
         import pinocchio as pin
 
         self.model = model = pin.buildModelFromUrdf(str(path))
-        self.singles = {}
-        for i in range(1, model.njoints):
-            if model.joints[i].nv != 1:
-                raise NotImplementedError("a joint of more than one motion")
-            self.singles[model.names[i]] = model.joints[i].idx_v
+        self.singles = singles_of(model)
         damping, mimics = mimics_and_damping(path)
         mimics = {name: one for name, one in mimics.items() if one[0] in self.singles}
         if any(offset != 0.0 or leader in mimics for leader, _, offset in mimics.values()):
@@ -224,8 +240,7 @@ def module(source, reference):
     """The source of a robot, and a function that prints its accelerations as JSON."""
     name = re.search(r"^pub struct (\w+) \{", source, re.M).group(1)
     joints = re.findall(r"^    (\w+): (Revolute|Prismatic),", source, re.M)
-    listed = re.search(r"JOINT_NAMES: .*?= \[(.*?)\];", source, re.S).group(1)
-    names = json.loads(f"[{listed.strip().rstrip(',')}]")
+    names = names_of(source)
     inputs = re.findall(r"Effort of `(.*?)` \(.*?\n(?:    //.*\n)*    #\[input\]\n    pub (\w+): f64", source)
     lines = []
     for state in reference.states:
@@ -331,9 +346,131 @@ def compare(folder, converter, wanted):
     sys.exit(failed)
 
 
+def entry(attribute, key):
+    """The value of a key, as Python reads it."""
+    start = re.search(rf"\b{key} = ", attribute)
+    if start is None:
+        return None
+    rest = attribute[start.end() :]
+    if not rest.startswith("["):
+        return rest.split(",")[0].strip()
+    depth = 0
+    for place, letter in enumerate(rest):
+        depth += {"[": 1, "]": -1}.get(letter, 0)
+        if depth == 0:
+            text = re.sub(r",(\s*\])", r"\1", rest[: place + 1])
+            return json.loads(text) if re.fullmatch(r"[-+\d.e,\s\[\]]*", text) else text
+    return None
+
+
+def matrix_of(p):
+    import numpy as np
+
+    e0, e = p[0], np.array(p[1:])
+    skew = np.array([[0.0, -e[2], e[1]], [e[2], 0.0, -e[0]], [-e[1], e[0], 0.0]])
+    return (e0 * e0 - e @ e) * np.eye(3) + 2.0 * np.outer(e, e) + 2.0 * e0 * skew
+
+
+def mechanism_of(source):
+    """Bodies and joints of a printed struct, from the ground outwards."""
+    import numpy as np
+
+    bodies, joints = {}, []
+    fields = re.findall(r"#\[(body|joint)\((.*?)\)\]\n    (\w+): (\w+),", source, re.S)
+    for role, attribute, name, kind in fields:
+        if role == "body":
+            inertia = np.array(entry(attribute, "inertia"))
+            inertia = np.diag(inertia) if inertia.ndim == 1 else inertia
+            turn = matrix_of(entry(attribute, "orientation") or [1.0, 0.0, 0.0, 0.0])
+            mass = float(entry(attribute, "mass"))
+            centre = np.array(entry(attribute, "position"))
+            bodies[name] = (mass, centre, turn @ inertia @ turn.T)
+        elif kind in ("Revolute", "Prismatic"):
+            ends = [end.strip() for end in entry(attribute, "between").strip("[]").split(",")]
+            point, axis = np.array(entry(attribute, "point")), np.array(entry(attribute, "axis"))
+            joints.append((ends, point, axis / np.linalg.norm(axis), kind == "Revolute"))
+        elif kind == "Planar":
+            raise NotImplementedError("a joint of more than one motion")
+    return bodies, joints
+
+
+def printed_matrices(bodies, joints, positions):
+    """Mass matrix, and efforts of gravity, with joints displaced from the printed configuration."""
+    import numpy as np
+    import pinocchio as pin
+
+    places = {"ground": (np.eye(3), np.zeros(3), [])}
+    axes = []
+    for number, ((parent, child), point, axis, turns) in enumerate(joints):
+        turn, shift, carriers = places[parent]
+        at, along = turn @ point + shift, turn @ axis
+        if turns:
+            step = pin.exp3(along * positions[number])
+            moved = (step @ turn, at + step @ (shift - at))
+        else:
+            moved = (turn, shift + along * positions[number])
+        places[child] = (*moved, [*carriers, number])
+        axes.append((at, along, turns))
+    count = len(joints)
+    mass_matrix, gravity = np.zeros((count, count)), np.zeros(count)
+    for name, (mass, centre, inertia) in bodies.items():
+        turn, shift, carriers = places[name]
+        centre = turn @ centre + shift
+        inertia = turn @ inertia @ turn.T
+        linear, angular = np.zeros((3, count)), np.zeros((3, count))
+        for number in carriers:
+            at, along, turns = axes[number]
+            linear[:, number] = np.cross(along, centre - at) if turns else along
+            angular[:, number] = along if turns else 0.0
+        mass_matrix += mass * linear.T @ linear + angular.T @ inertia @ angular
+        gravity += mass * 9.81 * linear[2]
+    return mass_matrix, gravity
+
+
+def printed(folder, converter):
+    import numpy as np
+    import pinocchio as pin
+
+    random = np.random.default_rng(51)
+    counts, largest = collections.Counter(), 0.0
+    for path in robots(folder):
+        model, what = by_pinocchio(path)
+        if what != "simulated":
+            continue
+        source = convert(converter, path, "--accept-inertia")
+        if source.returncode != 0:
+            counts["refused"] += 1
+            continue
+        try:
+            singles = singles_of(model)
+            bodies, joints = mechanism_of(source.stdout)
+        except NotImplementedError as reason:
+            counts[str(reason)] += 1
+            print(f"left out: {path.relative_to(folder / 'files')}: {reason}")
+            continue
+        order = [singles[name] for name in names_of(source.stdout)]
+        data, worst = model.createData(), 0.0
+        for _ in range(STATES):
+            positions = random.uniform(-1.2, 1.2, model.nv)
+            q = pin.integrate(model, pin.neutral(model), positions)
+            wanted = symmetric(pin.crba(model, data, q))[np.ix_(order, order)]
+            weights = pin.computeGeneralizedGravity(model, data, q)[order]
+            found, efforts = printed_matrices(bodies, joints, positions[order])
+            scale = np.sqrt(np.diag(wanted))
+            worst = max(worst, np.abs((found - wanted) / np.outer(scale, scale)).max())
+            worst = max(worst, np.abs(efforts - weights).max() / max(np.abs(weights).max(), 1e-3))
+        counts["within the limit" if worst < LIMIT else "beyond the limit"] += 1
+        if not worst < LIMIT:
+            print(f"{worst:8.1e} {path.relative_to(folder / 'files')}")
+        largest = max(largest, worst)
+    print(", ".join(f"{count} {what}" for what, count in counts.items()))
+    print(f"largest error: {largest:.1e}")
+    sys.exit(not largest < LIMIT)
+
+
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("what", choices=["get", "table", "compare"])
+    parser.add_argument("what", choices=["get", "table", "compare", "printed"])
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("robots", nargs="*")
     parser.add_argument("--converter", type=pathlib.Path, default="target/debug/holonom-urdf")
@@ -343,6 +480,8 @@ def main():
         get(folder)
     elif given.what == "table":
         table(folder, converter)
+    elif given.what == "printed":
+        printed(folder, converter)
     else:
         compare(folder, converter, given.robots)
 
