@@ -8,7 +8,7 @@ use crate::inertias::is_odd;
 use crate::mechanism::{Body, Joint, LinkFrame, Mechanism, Mimic, Motor, Options};
 use crate::names::{Names, snake_case, type_name};
 use crate::robot::Robot;
-use crate::spatial::euler_parameters;
+use crate::spatial::{clean, euler_parameters, number};
 use crate::tree::Group;
 use crate::visuals::Visual;
 
@@ -169,18 +169,6 @@ fn frames(robot: &Robot, first: usize, fields: &mut Names) -> Vec<LinkFrame> {
                 }
             });
     frames.collect()
-}
-
-/// What the macro would refuse as a number: nothing that small is meant.
-const LEAST: f64 = 1e-40;
-
-/// Without a negative zero.
-fn number(x: f64) -> f64 {
-    if x.abs() < LEAST { 0.0 } else { x }
-}
-
-pub(crate) fn clean(vector: Vector3<f64>) -> [f64; 3] {
-    [vector.x, vector.y, vector.z].map(number)
 }
 
 fn rows(tensor: &Matrix3<f64>) -> [[f64; 3]; 3] {

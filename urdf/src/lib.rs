@@ -95,9 +95,9 @@
 //! be zero, and generated code grows with them. [`Robot::parse_rounded`] takes such angles as
 //! exact.
 //!
-//! Bodies without mass, and those with moments of zero or below, have no equations of motion of their
-//! own. A mechanism with such a body runs in joint coordinates only. It gives no accelerations and
-//! no reactions of bodies; such a reading is an error that names the body.
+//! Bodies without mass, and those with moments of zero or below, have no equations of motion of
+//! their own. A mechanism with such a body runs in joint coordinates only. It gives no accelerations
+//! and no reactions of bodies; such a reading is an error that names the body.
 //!
 //! A `mimic` with an offset is violated with all joints at zero. Start with `assembled`.
 //!

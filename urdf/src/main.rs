@@ -25,8 +25,8 @@ struct Arguments {
     /// Leave out the inputs and motors of the joints. Damping stays.
     #[arg(long)]
     passive: bool,
-    /// Take masses and inertias that no body has as the file gives them, if the robot as a whole has
-    /// inertia. Each is named.
+    /// Take masses and inertias that no body has as the file gives them, if the robot as a whole
+    /// has inertia. Each is named.
     #[arg(long)]
     accept_inertia: bool,
     /// Take angles of frames within 1e-5 rad of a quarter turn as exact: 1.5708 is pi / 2.

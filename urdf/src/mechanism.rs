@@ -43,9 +43,7 @@ pub struct Mechanism {
     pub joints: Vec<Joint>,
     /// The frames of all links, in the order of the file.
     pub frames: Vec<LinkFrame>,
-    /// What is no fault of the file, and yet worth knowing, see [`Robot::notes`].
-    ///
-    /// [`Robot::notes`]: crate::Robot::notes
+    /// What is no fault of the file, and yet worth knowing, and what was taken as it is given.
     pub notes: Vec<Note>,
 }
 

@@ -91,8 +91,8 @@ pub trait Mechanism: Sized + 'static {
     /// The bodies whose masses and moments are `as_given`, whether a body may have them or not.
     #[doc(hidden)]
     const AS_GIVEN: &'static [usize] = &[];
-    /// Those of them with a mass or a moment that is not positive. The mechanism moves by its joints
-    /// alone then.
+    /// Those of them with a mass or a moment that is not positive. The mechanism moves by its
+    /// joints alone then.
     #[doc(hidden)]
     const WITHOUT_INERTIA: &'static [usize] = &[];
     /// The forces that turn round where a length passes through zero, one for each such length.

@@ -1,6 +1,6 @@
 //! Masses and inertias that no body has, taken as they are given.
 
-use super::AS_GIVEN;
+use super::reader::AS_GIVEN;
 use crate::diag::{Faults, list};
 use crate::model::{Body, Coordinates, Model};
 

@@ -24,7 +24,7 @@ use syn::Expr;
 
 pub(super) use self::as_given::coordinates;
 pub use self::as_given::judged;
-use self::reader::Reader;
+use self::reader::{AS_GIVEN, Reader};
 use self::solid::Solid;
 use super::number::Numbers;
 use super::pairs::Pairs;
@@ -122,10 +122,6 @@ pub fn port(name: &Name) -> Body {
         shapes: Vec::new(),
     }
 }
-
-/// The word that takes a mass and an inertia that no body has, of a model that was identified or
-/// simplified.
-pub(super) const AS_GIVEN: &str = "as_given";
 
 impl Reader<'_, '_> {
     /// A body whose mass and inertia are given.

@@ -2,10 +2,13 @@
 
 use syn::Expr;
 
-use super::AS_GIVEN;
 use crate::check::number::{AT_LIKES, Numbers};
 use crate::diag::Faults;
 use crate::model::{Name, Number};
+
+/// The word that takes a mass and an inertia that no body has, of a model that was identified or
+/// simplified.
+pub(super) const AS_GIVEN: &str = "as_given";
 
 /// What a link without a mass may have: base parameters tell no more of it.
 const MASS_MOVES: &str = "; a mass at a point on the axis of a hinge may be counted to either of its bodies: take \

@@ -8,10 +8,9 @@ use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{Expr, ExprParen, parse_quote, token};
 
-use super::AS_GIVEN;
 use super::formula::product;
 use super::lumps::{Lump, about, norm, turned, unit};
-use super::reader::Reader;
+use super::reader::{AS_GIVEN, Reader};
 use super::rotation::cross;
 use super::shape::{Axes, Formulas};
 use crate::check::number::elements;
