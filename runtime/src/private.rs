@@ -292,6 +292,7 @@ macro_rules! __stub_part {
 /// |---|---|
 /// | `floating` | the root link is a free body; else it is the ground |
 /// | `passive` | joints have no inputs and no motors; damping stays |
+/// | `inertia = "as given"` | masses and inertias that no body has are taken as the file gives them, if the robot as a whole has inertia |
 /// | `round_angles` | angles of frames within 1e-5 rad of a quarter turn are exact: 1.5708 is pi / 2 |
 ///
 /// A `#[mechanism(..)]` of your own stands beside the one that is printed,

@@ -4,10 +4,11 @@ use std::collections::HashMap;
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::inertias::is_odd;
 use crate::mechanism::{Body, Joint, LinkFrame, Mechanism, Mimic, Motor, Options};
 use crate::names::{Names, snake_case, type_name};
 use crate::robot::Robot;
-use crate::spatial::euler_parameters;
+use crate::spatial::{clean, euler_parameters, number};
 use crate::tree::Group;
 use crate::visuals::Visual;
 
@@ -78,6 +79,7 @@ fn body(robot: &Robot, group: &Group, names: &mut Names) -> Body {
         shapes,
         visuals,
         is_free: false,
+        is_as_given: is_odd(group),
     }
 }
 
@@ -167,18 +169,6 @@ fn frames(robot: &Robot, first: usize, fields: &mut Names) -> Vec<LinkFrame> {
                 }
             });
     frames.collect()
-}
-
-/// What the macro would refuse as a number: nothing that small is meant.
-const LEAST: f64 = 1e-40;
-
-/// Without a negative zero.
-fn number(x: f64) -> f64 {
-    if x.abs() < LEAST { 0.0 } else { x }
-}
-
-pub(crate) fn clean(vector: Vector3<f64>) -> [f64; 3] {
-    [vector.x, vector.y, vector.z].map(number)
 }
 
 fn rows(tensor: &Matrix3<f64>) -> [[f64; 3]; 3] {

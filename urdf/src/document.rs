@@ -217,15 +217,13 @@ fn inertia(reader: &mut Reader<'_>, node: Node<'_, '_>) -> Option<Inertia> {
         Some(value)
     });
     let Some(tensor) = reader.child(node, "inertia") else {
-        reader.at(node, "<inertial> has no <inertia>");
-        return None;
+        reader.say(node, "<inertial> has no <inertia>, and zeros are taken");
+        return Some(Inertia::point(mass?, frame?.origin));
     };
     let diagonal = ["ixx", "iyy", "izz"].map(|name| reader.number(tensor, name));
     let products = ["ixy", "ixz", "iyz"].map(|name| {
         if tensor.attribute(name).is_none() {
-            let message = format!("{}: `{name}` is left out, and 0 is taken", reader.owner);
-            let line = reader.lines.of_node(tensor);
-            reader.faults.note(line, message);
+            reader.say(tensor, &format!("`{name}` is left out, and 0 is taken"));
         }
         reader.number_or(tensor, name, 0.0)
     });
@@ -321,8 +319,10 @@ fn limits(reader: &mut Reader<'_>, node: Node<'_, '_>, kind: Option<JointKind>) 
         let bounds = ["lower", "upper"].map(|name| reader.number_or(limit, name, 0.0));
         if let [Some(lower), Some(upper)] = bounds {
             if lower > upper {
-                let message = format!("the lower limit {lower} exceeds the upper limit {upper}");
-                reader.at(limit, &message);
+                let message = format!(
+                    "the lower limit {lower} exceeds the upper limit {upper}, and none is taken"
+                );
+                reader.say(limit, &message);
             }
             limits.position = [lower, upper];
         }

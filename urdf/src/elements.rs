@@ -38,12 +38,25 @@ impl Reader<'_> {
         self.faults.at(self.lines.of_node(node), message);
     }
 
+    /// Notes what is no fault.
+    pub(crate) fn say(&mut self, node: Node<'_, '_>, message: &str) {
+        let message = format!("{}: {message}", self.owner);
+        self.faults.note(self.lines.of_node(node), message);
+    }
+
     /// The only child element of a name, if it is there.
     pub(crate) fn child<'n, 'i>(&mut self, node: Node<'n, 'i>, tag: &str) -> Option<Node<'n, 'i>> {
         let mut all = node.children().filter(|child| is(*child, tag));
         let first = all.next();
-        if let Some(second) = all.next() {
-            self.at(second, &format!("a second <{tag}>; one is accepted"));
+        if let Some((first, second)) = first.zip(all.next()) {
+            if says_the_same(first, second) {
+                self.say(
+                    second,
+                    &format!("a second <{tag}> says the same, and is skipped"),
+                );
+            } else {
+                self.at(second, &format!("a second <{tag}>; one is accepted"));
+            }
         }
         first
     }
@@ -178,6 +191,20 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// Whether two elements have the same attributes, and nothing else.
+fn says_the_same(one: Node<'_, '_>, other: Node<'_, '_>) -> bool {
+    let attributes = |node: Node<'_, '_>| {
+        let all = node.attributes();
+        let mut all: Vec<(String, String)> = all
+            .map(|one| (one.name().to_owned(), one.value().trim().to_owned()))
+            .collect();
+        all.sort();
+        all
+    };
+    let is_plain = |node: Node<'_, '_>| !node.children().any(|child| child.is_element());
+    is_plain(one) && is_plain(other) && attributes(one) == attributes(other)
 }
 
 /// Elements of other tools without which the mechanism is another one.

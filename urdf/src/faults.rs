@@ -93,6 +93,20 @@ impl Collector {
         });
     }
 
+    pub(crate) fn into_parts(self) -> (Vec<Fault>, Vec<Note>) {
+        (self.faults, self.notes)
+    }
+
+    /// Whether nothing is wrong so far.
+    pub(crate) fn is_clear(&self) -> bool {
+        self.faults.is_empty()
+    }
+
+    pub(crate) fn extend(&mut self, faults: Vec<Fault>, notes: Vec<Note>) {
+        self.faults.extend(faults);
+        self.notes.extend(notes);
+    }
+
     /// The notes, unless there are faults.
     pub(crate) fn finish(mut self) -> Result<Vec<Note>, Faults> {
         if self.faults.is_empty() {

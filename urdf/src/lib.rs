@@ -41,8 +41,8 @@
 //! ```
 //!
 //! The command does the same with files: `holonom-urdf arm.urdf > arm.rs`. It has the options
-//! `--floating`, `--passive`, `--round-angles` and `--name`. Those of the macro are
-//! `#[urdf(floating, passive, round_angles)]` on the struct.
+//! `--floating`, `--passive`, `--round-angles`, `--accept-inertia` and `--name`. Those of the macro
+//! are `#[urdf(floating, passive, round_angles, inertia = "as given")]` on the struct.
 //!
 //! # What becomes of the elements
 //!
@@ -81,15 +81,23 @@
 //!
 //! - Elements that may be misspelt, that close loops, and xacro sources.
 //! - Links that form no tree: two roots, circles, a link with two parents.
-//! - A link that moves without mass, or with an inertia that no body has. Links that are fixed to
-//!   it count with it.
-//! - A `mimic` that leads nowhere.
+//! - A link that moves and has an inertia that no body has. Links that are fixed to it count with
+//!   it. Published models often have such inertias, as they were identified or simplified.
+//!   [`Options::accept_inertia`] takes them as they are given. Each is named in a note.
+//! - A joint that nothing resists: the mass matrix of the robot is not positive definite. A link
+//!   without mass is accepted where what it carries resists its joint, as in a hip of three hinges.
+//! - A `mimic` of a joint with a similar name, of itself, or of a joint without a position. What
+//!   mimics a joint that is not there moves by itself, with a note.
 //!
 //! # Limits
 //!
 //! Files often give 1.5708 for a right angle. The numbers then have parts of some 1e-6 that should
 //! be zero, and generated code grows with them. [`Robot::parse_rounded`] takes such angles as
 //! exact.
+//!
+//! Bodies without mass, and those with moments of zero or below, have no equations of motion of
+//! their own. A mechanism with such a body runs in joint coordinates only. It gives no accelerations
+//! and no reactions of bodies; such a reading is an error that names the body.
 //!
 //! A `mimic` with an offset is violated with all joints at zero. Start with `assembled`.
 //!
@@ -98,11 +106,14 @@
 
 #![forbid(unsafe_code)]
 
+mod definite;
 mod describe;
 mod document;
 mod elements;
 mod faults;
+mod inertias;
 mod mechanism;
+mod mimics;
 mod names;
 mod print;
 mod robot;

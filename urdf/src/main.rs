@@ -25,6 +25,10 @@ struct Arguments {
     /// Leave out the inputs and motors of the joints. Damping stays.
     #[arg(long)]
     passive: bool,
+    /// Take masses and inertias that no body has as the file gives them, if the robot as a whole
+    /// has inertia. Each is named.
+    #[arg(long)]
+    accept_inertia: bool,
     /// Take angles of frames within 1e-5 rad of a quarter turn as exact: 1.5708 is pi / 2.
     #[arg(long)]
     round_angles: bool,
@@ -46,6 +50,7 @@ fn main() -> ExitCode {
     let mut options = Options::default();
     options.floating = arguments.floating;
     options.passive = arguments.passive;
+    options.accept_inertia = arguments.accept_inertia;
     options.name = arguments.name;
     options.source = arguments
         .file
@@ -56,13 +61,11 @@ fn main() -> ExitCode {
     } else {
         Robot::parse(&text)
     };
-    if let Ok(robot) = &robot {
-        for note in robot.notes() {
-            eprintln!("{file}:{}: {note}", note.line);
-        }
-    }
     match robot.and_then(|robot| robot.mechanism(&options)) {
         Ok(mechanism) => {
+            for note in &mechanism.notes {
+                eprintln!("{file}:{}: {note}", note.line);
+            }
             // A reader may close its end before all is there.
             match write!(io::stdout(), "{mechanism}") {
                 Ok(()) => ExitCode::SUCCESS,

@@ -11,6 +11,9 @@ pub struct Options {
     pub floating: bool,
     /// Joints have no motors: no inputs and no efforts but damping.
     pub passive: bool,
+    /// Masses and inertias that no body has are taken as the file gives them, where the robot as a
+    /// whole has inertia. Each is named among [`Mechanism::notes`].
+    pub accept_inertia: bool,
     /// The name of the struct, in place of the robot's. What is no name of a type is made one.
     pub name: Option<String>,
     /// The file, to be named in a comment.
@@ -40,9 +43,7 @@ pub struct Mechanism {
     pub joints: Vec<Joint>,
     /// The frames of all links, in the order of the file.
     pub frames: Vec<LinkFrame>,
-    /// What is no fault of the file, and yet worth knowing, see [`Robot::notes`].
-    ///
-    /// [`Robot::notes`]: crate::Robot::notes
+    /// What is no fault of the file, and yet worth knowing, and what was taken as it is given.
     pub notes: Vec<Note>,
 }
 
@@ -71,6 +72,9 @@ pub struct Body {
     pub visuals: Vec<String>,
     /// No joint of the mechanism names the body.
     pub is_free: bool,
+    /// Mass and inertia are those of no body: none at all, or such that
+    /// [`Options::accept_inertia`] was said.
+    pub is_as_given: bool,
 }
 
 /// A shape of a body: sizes in m, points in global axes (m).

@@ -1,11 +1,13 @@
 //! A robot as its file gives it, checked.
 
 use crate::describe;
-use crate::document::{self, Document, Joint};
+use crate::document::{self, Document};
 use crate::elements::Lines;
-use crate::faults::{Collector, Faults, Note, advice};
+use crate::faults::{Collector, Faults, Note};
+use crate::inertias::{self, Asked};
 use crate::mechanism::{Mechanism, Options};
-use crate::tree::{self, Group, Tree};
+use crate::mimics;
+use crate::tree::{self, Tree};
 
 /// A robot, read from a URDF file.
 #[derive(Debug)]
@@ -20,8 +22,9 @@ impl Robot {
     ///
     /// # Errors
     ///
-    /// Every fault of the file with its line. The text is no URDF. The links form no tree. A link
-    /// that moves could be no rigid body.
+    /// Every fault of the file with its line. The text is no URDF. The links form no tree. Beside
+    /// these, links that move and could be no rigid bodies; alone they are refused by
+    /// [`Robot::mechanism`].
     pub fn parse(text: &str) -> Result<Self, Faults> {
         Self::read(text, false)
     }
@@ -42,6 +45,15 @@ impl Robot {
     fn read(text: &str, quarter_turns: bool) -> Result<Self, Faults> {
         let mut faults = Collector::default();
         let read = read(text, quarter_turns, &mut faults);
+        if let (false, Some((document, tree))) = (faults.is_clear(), &read) {
+            // All that is wrong is said at once.
+            let asked = Asked {
+                floating: false,
+                as_given: false,
+            };
+            let (found, _) = inertias::judge(document, tree, asked);
+            faults.extend(found, Vec::new());
+        }
         let notes = faults.finish()?;
         let (document, tree) = read.expect("without a fault there is a tree");
         Ok(Self {
@@ -62,7 +74,8 @@ impl Robot {
     ///
     /// # Errors
     ///
-    /// The root link, if it shall float and cannot.
+    /// The root link, if it shall float and cannot. A link that moves and could be no rigid body,
+    /// unless [`Options::accept_inertia`] says so; a joint that moves no inertia.
     pub fn mechanism(&self, options: &Options) -> Result<Mechanism, Faults> {
         let mut faults = Collector::default();
         if options.floating {
@@ -72,8 +85,6 @@ impl Robot {
                 let message = "link \"world\": the root has the name of the ground and cannot float; \
                                make its joint `floating`, or rename it";
                 faults.at(link.line, message);
-            } else {
-                could_move(&self.document, root, &mut faults);
             }
         }
         if !options.floating && self.tree.groups.len() == 1 {
@@ -85,8 +96,18 @@ impl Robot {
             );
             faults.at(root.line, message);
         }
-        faults.finish()?;
-        Ok(describe::mechanism(self, options))
+        if faults.is_clear() {
+            let asked = Asked {
+                floating: options.floating,
+                as_given: options.accept_inertia,
+            };
+            let (found, notes) = inertias::judge(&self.document, &self.tree, asked);
+            faults.extend(found, notes);
+        }
+        let notes = faults.finish()?;
+        let mut mechanism = describe::mechanism(self, options);
+        mechanism.notes.extend(notes);
+        Ok(mechanism)
     }
 }
 
@@ -109,12 +130,9 @@ fn read(text: &str, quarter_turns: bool, faults: &mut Collector) -> Option<(Docu
         faults.at(lines.of_node(root), message);
         return None;
     }
-    let document = document::read(root, &lines, quarter_turns, faults);
-    mimics(&document, faults);
+    let mut document = document::read(root, &lines, quarter_turns, faults);
+    mimics::judge(&mut document, faults);
     let tree = tree::grow(&document, faults)?;
-    for group in &tree.groups[1..] {
-        could_move(&document, group, faults);
-    }
     Some((document, tree))
 }
 
@@ -144,94 +162,4 @@ fn as_readers_take_it(text: &str) -> String {
         text.insert_str(start + "<robot".len(), &declared);
     }
     text
-}
-
-/// Refuses what mimics a joint that has no position, or itself.
-fn mimics(document: &Document, faults: &mut Collector) {
-    let find = |name: &str| document.joints.iter().find(|joint| joint.name == name);
-    let is_single = |joint: &Joint| joint.kind.is_none_or(|kind| kind.is_single());
-    for joint in &document.joints {
-        let Some(mimic) = &joint.mimic else { continue };
-        let mut refuse = |message: String| {
-            faults.at(mimic.line, format!("joint \"{}\": {message}", joint.name));
-        };
-        if !is_single(joint) {
-            refuse(
-                "it mimics another one; only a revolute, continuous or prismatic joint can".into(),
-            );
-        }
-        let Some(leader) = find(&mimic.joint) else {
-            let names = document.joints.iter().map(|joint| &*joint.name);
-            let advice = advice(&mimic.joint, names);
-            refuse(format!(
-                "it mimics \"{}\", which is no joint; {advice}",
-                mimic.joint
-            ));
-            continue;
-        };
-        if !is_single(leader) {
-            refuse(format!(
-                "it mimics \"{}\", which has no position; a revolute, continuous or prismatic joint has",
-                mimic.joint
-            ));
-        }
-        let next = |joint: &&Joint| find(&joint.mimic.as_ref()?.joint);
-        let chain = std::iter::successors(Some(leader), next).take(document.joints.len());
-        if chain.into_iter().any(|other| other.name == joint.name) {
-            refuse(format!(
-                "it mimics \"{}\", which follows it in turn",
-                mimic.joint
-            ));
-        }
-    }
-}
-
-/// How far one moment may exceed the sum of the others, as a part of it; the macro's own limit.
-const EXCESS: f64 = 1e-9;
-
-/// Refuses what moves and is no rigid body.
-fn could_move(document: &Document, group: &Group, faults: &mut Collector) {
-    let Some(inertia) = group.inertia else { return };
-    let link = &document.links[group.links[0]];
-    let by = match group.joint {
-        Some(joint) => format!("joint \"{}\" moves it", document.joints[joint].name),
-        None => "it is the root and floats".into(),
-    };
-    let with = match group.links.len() {
-        1 => String::new(),
-        2 => format!(" with link \"{}\"", document.links[group.links[1]].name),
-        all => format!(" with {} links that are fixed to it", all - 1),
-    };
-    let moments = inertia.moments();
-    let [least, middle, largest] = moments;
-    let found = moments.map(brief).join(", ");
-    let message = if inertia.mass <= 0.0 {
-        format!(
-            "{by}{with}, and there is no mass; a positive mass and inertia are accepted, or a \
-             `fixed` joint"
-        )
-    } else if least <= 0.0 {
-        format!(
-            "{by}{with}, and its principal moments of inertia are {found} kg m^2; positive ones are \
-             accepted"
-        )
-    } else if largest > (least + middle) * (1.0 + EXCESS) {
-        format!(
-            "{by}{with}, and its principal moments of inertia are {found} kg m^2; no body has these: \
-             a moment up to the sum of the two others is accepted"
-        )
-    } else {
-        return;
-    };
-    faults.at(link.line, format!("link \"{}\": {message}", link.name));
-}
-
-/// Four digits of a number.
-fn brief(x: f64) -> String {
-    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
-    }
 }

@@ -90,6 +90,18 @@ pub(crate) fn euler_parameters(rotation: &Matrix3<f64>) -> [f64; 4] {
     best.map(|x| x / (sign * length))
 }
 
+/// What the macro would refuse as a number: nothing that small is meant.
+const LEAST: f64 = 1e-40;
+
+/// Without a negative zero.
+pub(crate) fn number(x: f64) -> f64 {
+    if x.abs() < LEAST { 0.0 } else { x }
+}
+
+pub(crate) fn clean(vector: Vector3<f64>) -> [f64; 3] {
+    [vector.x, vector.y, vector.z].map(number)
+}
+
 /// Mass, centre of mass and inertia.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Inertia {
@@ -107,6 +119,15 @@ impl Inertia {
         centre: Vector3::new(0.0, 0.0, 0.0),
         tensor: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
     };
+
+    /// A mass at a point.
+    pub(crate) fn point(mass: f64, centre: Vector3<f64>) -> Self {
+        Self {
+            mass,
+            centre,
+            ..Self::ZERO
+        }
+    }
 
     /// What is given in a frame, in the frame in which that one is: `R I R^T`.
     pub(crate) fn carried(&self, frame: &Frame) -> Self {

@@ -3,10 +3,9 @@
 use nalgebra::Vector3;
 use roxmltree::Node;
 
-use crate::describe::clean;
 use crate::elements::{Reader, is};
 use crate::mechanism::Shape;
-use crate::spatial::Frame;
+use crate::spatial::{Frame, clean};
 
 /// A `<visual>`.
 #[derive(Debug)]

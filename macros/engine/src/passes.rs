@@ -35,5 +35,9 @@ pub fn mechanism(
     } else {
         rank::judge(&checked.model)
     };
-    Some(checked.judged(found, faults))
+    let model = checked.judged(found, faults);
+    if !faults.any() && model.bodies.iter().any(|body| body.as_given) {
+        check::bodies::judged(&model, rank::is_definite(&model), faults);
+    }
+    Some(model)
 }

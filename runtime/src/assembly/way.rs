@@ -301,7 +301,7 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
             return step;
         }
         let level = M::Multipliers::<S>::zeros();
-        let mass = M::mass(constants);
+        let mass = M::metric(constants);
         // What a load moves over what the constraints leave free, and its work there by the last
         // projection and by the one before.
         let free = |load: &M::Velocities<S>| {

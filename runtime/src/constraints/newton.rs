@@ -233,7 +233,7 @@ pub(crate) fn free_parts<S: Real, M: Mechanism>(
     let rows = Rows::at(constants, time, state);
     let part = part(S::zero(), Depth::Dependent, S::one());
     let (coefficients, factors) = compliant::<S, M>(constants, &rows, state, part);
-    let mass = M::mass(constants);
+    let mass = M::metric(constants);
     for motion in motions {
         let places = motion.as_mut_slice().iter_mut().zip(mass.as_slice());
         places.for_each(|(u, &mass)| *u = *u * mass);
@@ -252,7 +252,7 @@ pub(crate) fn free_share<S: Real, M: Mechanism>(
 ) -> S {
     let rows = Rows::at(constants, time, state);
     let (coefficients, factors) = compliant::<S, M>(constants, &rows, state, S::EPSILON.sqrt());
-    let mass = M::mass(constants);
+    let mass = M::metric(constants);
     let energy = |motion: &M::Velocities<S>| {
         let places = motion.as_slice().iter().zip(mass.as_slice());
         places.fold(S::zero(), |sum, (&u, &m)| (u * u).fused(m, sum))

@@ -50,7 +50,7 @@ pub(crate) fn characteristic_length<S: Real, M: Mechanism>(
     state: &M::State<S>,
 ) -> S {
     let mut length = extent::extent::<S, M>(constants, state);
-    let mass = M::mass(constants);
+    let mass = M::metric(constants);
     for body in M::REPORT.bodies {
         if body.kind == BodyKind::Rigid {
             let [m, _, _, a, b, c] = read(mass.as_slice(), body.velocity);

@@ -143,7 +143,7 @@ fn constants<S: Real, M: Mechanism>(mechanism: &M) -> Result<M::Constants<S>, Fa
 
 /// The mass of all bodies that a joint is about, or of all.
 fn mass<S: Real, M: Mechanism>(constants: &M::Constants<S>) -> S {
-    let mass = M::mass(constants);
+    let mass = M::metric(constants);
     let held = |body: usize| M::REPORT.blocks.iter().any(|block| block.body == body);
     let all = M::REPORT.blocks.is_empty();
     let bodies = M::REPORT.bodies.iter().enumerate();
@@ -156,7 +156,7 @@ fn mass<S: Real, M: Mechanism>(constants: &M::Constants<S>) -> S {
 
 /// The extent of the mechanism, or the largest radius of gyration.
 fn length<S: Real, M: Mechanism>(constants: &M::Constants<S>, state: &M::State<S>) -> S {
-    let mass = M::mass(constants);
+    let mass = M::metric(constants);
     let mut length = extent::<S, M>(constants, state);
     for body in M::REPORT.bodies {
         if body.kind == BodyKind::Rigid {
@@ -180,7 +180,7 @@ fn rate<S: Real, M: Mechanism>(
 ) -> Result<S, Fault> {
     let turning = |velocities: &M::Velocities<S>| turning::<S, M>(velocities, length);
     let forces = resolved::<S, M>(constants, rows.time, state);
-    let mass = M::mass(constants);
+    let mass = M::metric(constants);
     let mut free = forces;
     let places = free.as_mut_slice().iter_mut().zip(mass.as_slice());
     places.for_each(|(force, &mass)| *force = force.quotient(mass));

@@ -144,7 +144,7 @@ fn elements(kind: BodyKind) -> usize {
 
 /// What the square of a load counts: 1 for a force, `m / J` for a moment.
 fn leverages<S: Real, M: Mechanism>(constants: &M::Constants<S>) -> M::Velocities<S> {
-    let mut leverages = M::mass(constants);
+    let mut leverages = M::metric(constants);
     for body in M::REPORT.bodies {
         let own = leverages.as_mut_slice().iter_mut().skip(body.velocity);
         let mut mass = None;

@@ -11,7 +11,7 @@ use crate::measure::view::View;
 use crate::mechanism::coordinates::{
     Absolute, AbsoluteEquations, Coordinates, EquationsIn, Evaluation, First, Prepared,
 };
-use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms};
+use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms, have_equations};
 use crate::mechanism::limits::Several;
 use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::efforts::Show;
@@ -320,6 +320,7 @@ where
         setting: &Setting<'_, S, M, F, C>,
         then: impl FnOnce(Reactions<'_, S, M, F>) -> Result<(), Fault>,
     ) -> Result<(), Fault> {
+        have_equations::<M>()?;
         let of_bodies = Evaluator::<S, M, F, A, Absolute> {
             equations: self.absolute,
             absolute: self.absolute,

@@ -305,7 +305,7 @@ impl<'a, M: Mechanism> Look<'a, M> {
         }
         let rest = self.free(gradient);
         let (mut left, mut whole) = (0.0, 0.0);
-        let mass = M::mass(self.constants);
+        let mass = M::metric(self.constants);
         let elements = rest.as_slice().iter().zip(gradient.as_slice());
         for ((rest, gradient), mass) in elements.zip(mass.as_slice()) {
             left += mass * rest * rest;
@@ -329,7 +329,7 @@ impl<'a, M: Mechanism> Look<'a, M> {
     /// none that leads back onto them.
     fn goes_on(&mut self) -> bool {
         let length = extent::<f64, M>(self.constants, &self.state);
-        let mut motion = M::mass(self.constants);
+        let mut motion = M::metric(self.constants);
         for element in motion.as_mut_slice() {
             *element *= self.random.number();
         }

@@ -56,7 +56,7 @@ use crate::mechanism::coordinates::{
     Absolute, AbsoluteEquations, Coordinates, Equations, EquationsIn, Evaluation, Relative,
 };
 use crate::mechanism::joint_kernels::JointCoordinates;
-use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation};
+use crate::mechanism::kernels::{Mechanism, Orientation, Pivot, Stabilisation, have_equations};
 use crate::mechanism::orientations::{check_state, with_unit_orientations};
 use crate::mechanism::switch::Switch;
 use crate::mechanism::turns;
@@ -509,6 +509,7 @@ where
         time: S,
         bodies: &M::State<S>,
     ) -> Result<Evaluation<S, M, Absolute>, Fault> {
+        have_equations::<M>()?;
         let mut evaluation = Evaluation::<S, M, Absolute<C::Orientation>>::zeros();
         self.of_bodies()
             .evaluate_into(time, bodies, &mut evaluation)?;

@@ -122,7 +122,7 @@ where
         let beginning = Beginning {
             accelerations: [here.rates.velocities(), there.rates.velocities()],
             forces: &self.all_forces(time, &with_unit_orientations::<S, M>(state)),
-            mass: &M::mass(self.constants()),
+            mass: &M::metric(self.constants()),
             bias,
         };
         monitor.begin(state, &beginning);

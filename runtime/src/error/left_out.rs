@@ -23,4 +23,6 @@ pub enum Unheeding {
     Ensemble,
     /// Runs that carry derivatives, and gradients.
     Derivatives,
+    /// A mechanism with a body whose mass or inertia is not positive.
+    WithoutInertia,
 }

@@ -17,6 +17,12 @@ pub enum StepFault {
         /// The body's field.
         body: &'static str,
     },
+    /// A body is `as_given` with a mass or a moment of inertia that is not positive. So bodies have
+    /// no equations of motion: accelerations and reactions are not known, nor impulses of events.
+    WithoutInertia {
+        /// The body's field.
+        body: &'static str,
+    },
     /// The rates came out as NaN or infinity: forces beyond the range of numbers, or a singular
     /// system.
     RatesNotFinite {
@@ -174,6 +180,11 @@ impl fmt::Display for StepFault {
             Self::ZeroOrientation { body } => {
                 write!(f, "the Euler parameters of body `{body}` have no length")
             }
+            Self::WithoutInertia { body } => write!(
+                f,
+                "the mass or inertia of `{body}`, as given, is not positive: the mechanism moves by its joints, and bodies have no equations \
+                 for accelerations, reactions and impulses of events"
+            ),
             Self::RatesNotFinite { origin } => not_finite(f, origin),
             Self::Singular {
                 name,

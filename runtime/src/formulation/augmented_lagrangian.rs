@@ -472,7 +472,7 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>> Conjugate<S, M, C> {
         let before = self.length;
         let kinetic = |w: &C::Velocities<S>| {
             let rows = saddle.by_all_rows(w, multipliers)?;
-            let mass = M::mass(rows.constants);
+            let mass = M::metric(rows.constants);
             Some(weighted(rows.accelerations.as_slice(), mass.as_slice()))
         };
         self.length = match kinetic(accelerations) {

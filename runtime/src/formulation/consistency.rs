@@ -16,7 +16,7 @@ pub(crate) fn inconsistency<S: Real, M: Mechanism>(
     gamma: &M::Multipliers<S>,
 ) -> (usize, S) {
     let jacobian = M::jacobian(constants, time, state);
-    let mass = M::mass(constants);
+    let mass = M::metric(constants);
     let mut missing = *gamma;
     let mut terms = *gamma;
     for term in terms.as_mut_slice() {

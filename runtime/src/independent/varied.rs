@@ -194,7 +194,8 @@ fn refused<M: JointRates, S: Real>(
     constants: &M::Constants<S>,
 ) -> Option<ParameterError> {
     let mass = M::mass(constants);
-    for body in M::REPORT.bodies {
+    let bodies = M::REPORT.bodies.iter().enumerate();
+    for (_, body) in bodies.filter(|(place, _)| !M::AS_GIVEN.contains(place)) {
         let [m, _, _, moments @ ..]: [S; 6] = match body.kind {
             BodyKind::Rigid => read(mass.as_slice(), body.velocity),
             BodyKind::Particle => [at(mass.as_slice(), body.velocity); 6],

@@ -18,7 +18,7 @@ use crate::mechanism::handle::{
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
-use crate::mechanism::report::MarkerKind;
+use crate::mechanism::report::{BodyInfo, MarkerKind};
 use crate::mechanism::turns;
 use crate::state::vector::Array;
 
@@ -165,11 +165,17 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
         M::shape(self.constants(), place)
     }
 
-    /// Gravity (m/s^2, global): the force on the first body less that of every force field on it,
-    /// over its mass. Zero without a body.
+    /// Gravity (m/s^2, global): the force on the first body with a mass less that of every force
+    /// field on it, over its mass. Zero without a body.
     #[must_use]
     pub fn gravity(&self) -> Vector3<S> {
-        let (gravity, _) = self.gravity_by(0);
+        let mass = M::mass::<S>(self.constants());
+        let has_mass = |body: &BodyInfo| {
+            let [own] = read(mass.as_slice(), body.velocity);
+            own != S::zero()
+        };
+        let first = M::REPORT.bodies.iter().position(has_mass);
+        let (gravity, _) = self.gravity_by(first.unwrap_or(0));
         Vector3::from(gravity)
     }
 

@@ -44,6 +44,12 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
         _stabilisation: &Stabilisation<S>,
         _absolute: &AbsoluteEquations<S, M>,
     ) {
+        const {
+            assert!(
+                M::WITHOUT_INERTIA.is_empty(),
+                "a body is `as_given` with a mass or a moment of inertia that is not positive: the mechanism moves by its joints alone"
+            );
+        }
     }
 
     #[inline(always)]

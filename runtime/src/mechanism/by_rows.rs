@@ -75,7 +75,7 @@ pub fn factor_by_rows<S: Scalar, M: Mechanism, T: Terms, L: Array<S>>(
     time: S,
     state: &M::State<S>,
 ) -> (FactorsOf<S, M, L>, Pivot<S>) {
-    let mut inverse_mass = M::mass(constants);
+    let mut inverse_mass = M::metric(constants);
     for mass in inverse_mass.as_mut_slice() {
         *mass = mass.reciprocal();
     }

@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use crate::error::{LeavesOut, ParameterError, StartFault};
+use crate::error::{LeavesOut, ParameterError, StartFault, StepFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::coordinates::{Coordinates, Evaluation};
 use crate::mechanism::limits::{JointLimits, Several};
@@ -88,6 +88,13 @@ pub trait Mechanism: Sized + 'static {
     const VECTOR_ROWS: &'static [usize] = &[];
     /// The expressions in laws whose signs decide; none where no law switches.
     const SWITCHES: &'static [Switch] = &[];
+    /// The bodies whose masses and moments are `as_given`, whether a body may have them or not.
+    #[doc(hidden)]
+    const AS_GIVEN: &'static [usize] = &[];
+    /// Those of them with a mass or a moment that is not positive. The mechanism moves by its
+    /// joints alone then.
+    #[doc(hidden)]
+    const WITHOUT_INERTIA: &'static [usize] = &[];
     /// The forces that turn round where a length passes through zero, one for each such length.
     #[doc(hidden)]
     const SEPARATIONS: &'static [&'static str] = &[];
@@ -227,6 +234,15 @@ pub trait Mechanism: Sized + 'static {
 
     /// The diagonal of the mass matrix: `(m, m, m, J1, J2, J3)` for a body.
     fn mass<S: Scalar>(constants: &Self::Constants<S>) -> Self::Velocities<S>;
+
+    /// The same with masses and moments that are positive, also of bodies that are `as_given`: what
+    /// sizes of motions are measured by, and projections take the least of. No motion follows from
+    /// it.
+    #[doc(hidden)]
+    #[inline]
+    fn metric<S: Scalar>(constants: &Self::Constants<S>) -> Self::Velocities<S> {
+        Self::mass(constants)
+    }
 
     /// `g`: gravity, forces of the language, and the gyroscopic moment `-w x J w`.
     fn forces<S: Scalar>(
@@ -457,6 +473,16 @@ pub trait Mechanism: Sized + 'static {
     /// `A(p) A(c)`, with Euler parameters `p c` (quaternion product). `(1, 0, 0, 0)` where the user
     /// gave principal moments, and for a particle.
     fn user_axes(body: usize) -> [f64; 4];
+}
+
+/// Refuses a mechanism whose bodies have no equations of motion.
+pub(crate) fn have_equations<M: Mechanism>() -> Result<(), StepFault> {
+    match M::WITHOUT_INERTIA {
+        [] => Ok(()),
+        [first, ..] => Err(StepFault::WithoutInertia {
+            body: M::REPORT.bodies.get(*first).map_or("", |body| body.name),
+        }),
+    }
 }
 
 /// Refuses a mechanism with states of the user's own.

@@ -221,7 +221,7 @@ fn mark_blocked<S: Real, M: Mechanism, const K: usize>(
 /// constraints, the square of an acceleration.
 fn strength_of_forces<S: Real, M: Mechanism>(scene: &Scene<'_, S, M>) -> S {
     let forces = M::forces(scene.constants, scene.time, scene.bodies);
-    let mass = M::mass::<S>(scene.constants);
+    let mass = M::metric::<S>(scene.constants);
     let pairs = forces.as_slice().iter().zip(mass.as_slice());
     pairs.fold(S::zero(), |sum, (&force, &mass)| {
         (force * force).fused(mass.reciprocal(), sum)

@@ -149,7 +149,7 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, 
             chosen: *chosen,
         };
         let offset = setting.rates_at(list, &Array::zeros());
-        let mass = M::mass::<S>(&setting.absolute.constants);
+        let mass = M::metric::<S>(&setting.absolute.constants);
         let zero = S::zero();
         for (index, tracked) in list.iter().enumerate() {
             if !chosen[index] {

@@ -5,7 +5,7 @@ use crate::constraints::rows::Rows;
 use crate::error::{Fault, ModeFault, StartFault};
 use crate::formulation::add;
 use crate::math::scalar::Real;
-use crate::mechanism::kernels::{Compliant, Mechanism};
+use crate::mechanism::kernels::{Compliant, Mechanism, have_equations};
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::nonsmooth::quantity::{JointQuantity, Quantity};
 use crate::nonsmooth::scene::Scene;
@@ -29,6 +29,7 @@ pub(crate) fn impact<S: Real, M: Mechanism>(
     quantity: JointQuantity<M>,
     restitution: S,
 ) -> Result<(M::State<S>, Impact<S>), Fault> {
+    have_equations::<M>()?;
     let quantity = Quantity::<S>::Joint(quantity.reading);
     let joint = quantity.name::<M>();
     let is_coefficient = restitution >= S::zero() && restitution <= S::one();

@@ -117,6 +117,10 @@ fn what_cannot_be_set_is_told_with_what_can() {
             "joint `pin` carries no body in the spanning tree",
         ),
         (
+            Fault::Step(StepFault::WithoutInertia { body: "yoke" }),
+            "the mass or inertia of `yoke`, as given, is not positive: the mechanism moves by its joints, and bodies have no equations for accelerations, reactions and impulses of events",
+        ),
+        (
             Fault::Assembly(AssemblyFault::NotFree { joint: "pin" }),
             "what is to be set of joint `pin` is no motion that its equations leave free",
         ),

@@ -108,14 +108,7 @@ const ENGINE_METHODS: [&[&str]; 8] = [
 ];
 
 /// The circles of files of `urdf`.
-const URDF_CIRCLES: [&[&str]; 1] = [&[
-    "describe",
-    "document",
-    "mechanism",
-    "robot",
-    "tree",
-    "visuals",
-]];
+const URDF_CIRCLES: [&[&str]; 1] = [&["describe", "robot"]];
 
 #[test]
 fn rooms_of_the_run_time_read_one_way() {

@@ -69,16 +69,19 @@ impl Input {
         let mut faults: Option<Error> = None;
         for attribute in attributes {
             let words = attribute
-                .parse_args_with(Punctuated::<Ident, Token![,]>::parse_terminated)
+                .parse_args_with(Punctuated::<Word, Token![,]>::parse_terminated)
                 .map_err(|error| Error::new(error.span(), format!("{error}; {ACCEPTED}")))?;
-            for word in words {
-                match &*word.to_string() {
-                    "floating" => self.options.floating = true,
-                    "passive" => self.options.passive = true,
-                    "round_angles" => self.round_angles = true,
-                    other => {
-                        let message = format!("`{other}` is no option; {ACCEPTED}");
-                        let fault = Error::new(word.span(), message);
+            for Word { name, value } in words {
+                let value = value.as_ref().map(LitStr::value);
+                match (&*name.to_string(), value.as_deref()) {
+                    ("floating", None) => self.options.floating = true,
+                    ("passive", None) => self.options.passive = true,
+                    ("round_angles", None) => self.round_angles = true,
+                    ("inertia", Some("as given")) => self.options.accept_inertia = true,
+                    (other, value) => {
+                        let value = value.map_or(String::new(), |value| format!(" = {value:?}"));
+                        let message = format!("`{other}{value}` is no option; {ACCEPTED}");
+                        let fault = Error::new(name.span(), message);
                         match &mut faults {
                             Some(all) => all.combine(fault),
                             None => faults = Some(fault),
@@ -91,4 +94,20 @@ impl Input {
     }
 }
 
-const ACCEPTED: &str = "`floating`, `passive` and `round_angles` are accepted";
+const ACCEPTED: &str =
+    "`floating`, `passive`, `round_angles` and `inertia = \"as given\"` are accepted";
+
+/// An option, which may have a value.
+struct Word {
+    name: Ident,
+    value: Option<LitStr>,
+}
+
+impl Parse for Word {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let name = input.parse()?;
+        let equals: Option<Token![=]> = input.parse()?;
+        let value = equals.map(|_| input.parse()).transpose()?;
+        Ok(Self { name, value })
+    }
+}

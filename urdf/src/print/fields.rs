@@ -123,6 +123,9 @@ fn body(page: &mut Page, body: &Body) {
     if body.is_free {
         pairs.push(("free", String::new()));
     }
+    if body.is_as_given {
+        pairs.push(("as_given", String::new()));
+    }
     page.attribute("body", &pairs);
     page.line(1, &format!("{}: Body,", body.field));
 }

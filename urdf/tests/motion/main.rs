@@ -6,6 +6,7 @@
 mod equations;
 mod in_place;
 mod limits;
+mod massless;
 mod regressor;
 mod robots;
 mod shapes;

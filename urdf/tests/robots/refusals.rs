@@ -1,8 +1,28 @@
 //! Files that are refused: every fault with its line, what was found and what would be accepted.
 
-use holonom_urdf::{Options, Robot};
+use holonom_urdf::{Faults, Mechanism, Options, Robot};
 
 const MASS: &str = r#"<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial>"#;
+
+/// With all products of inertia.
+const WHOLE: &str = r#"<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>"#;
+
+/// A mechanism whose inertias are taken as given, of links and joints in lines from 2 on.
+fn given(body: &str) -> Result<Mechanism, Faults> {
+    let robot = Robot::parse(&format!("<robot name=\"arm\">\n{body}\n</robot>"))?;
+    let mut options = Options::default();
+    options.accept_inertia = true;
+    robot.mechanism(&options)
+}
+
+/// What is noted of it, in the order of lines.
+fn notes(body: &str) -> Vec<String> {
+    let mechanism = given(body).unwrap_or_else(|faults| panic!("{faults}"));
+    let mut notes = mechanism.notes;
+    notes.sort_by_key(|note| note.line);
+    let notes = notes.iter();
+    notes.map(|note| format!("{}: {note}", note.line)).collect()
+}
 
 /// What is said of the links and joints in a robot, in lines from 2 on.
 fn refusal(body: &str) -> String {
@@ -93,8 +113,20 @@ fn a_massless_link_that_moves() {
 <joint name="mount" type="fixed"><parent link="cross"/><child link="tool"/></joint>
 <joint name="yaw" type="continuous"><parent link="cross"/><child link="hand"/></joint>"#,
     );
+    // The hand turns about the same axis, so that nothing resists both joints.
     let wanted = "arm.urdf:3: link \"cross\": joint \"pitch\" moves it with link \"tool\", and there is \
                   no mass; a positive mass and inertia are accepted, or a `fixed` joint";
+    assert_eq!(found, wanted);
+    // By itself, at the end of a chain.
+    let found = refusal(
+        r#"<link name="base"/>
+<link name="hand">MASS</link>
+<link name="tip"/>
+<joint name="yaw" type="continuous"><parent link="base"/><child link="hand"/></joint>
+<joint name="slide" type="prismatic"><parent link="hand"/><child link="tip"/></joint>"#,
+    );
+    let wanted = "arm.urdf:4: link \"tip\": joint \"slide\" moves it, and there is no mass; a positive \
+                  mass and inertia are accepted, or a `fixed` joint";
     assert_eq!(found, wanted);
 }
 
@@ -139,9 +171,90 @@ fn numbers_that_are_none() {
                   are accepted\n\
                   arm.urdf:10: joint \"one\": the axis has no direction; one that is not zero is \
                   accepted\n\
-                  arm.urdf:11: joint \"one\": the lower limit 1 exceeds the upper limit -1\n\
                   arm.urdf:11: joint \"one\": `effort` is -5; zero or a positive number is accepted";
     assert_eq!(found, wanted);
+}
+
+#[test]
+fn a_second_element_is_refused_unless_it_says_the_same() {
+    let twice = |second: &str| {
+        format!(
+            r#"<link name="base"/>
+<link name="a">MASS</link>
+<joint name="one" type="continuous"><parent link="base"/><child link="a"/>
+  <axis xyz="0 0 1"/>
+  {second}
+</joint>"#
+        )
+    };
+    let wanted = "arm.urdf:6: joint \"one\": a second <axis>; one is accepted";
+    assert_eq!(refusal(&twice(r#"<axis xyz="0 1 0"/>"#)), wanted);
+    let notes = notes(&twice(r#"<axis xyz="0 0 1"/>"#).replace("MASS", WHOLE));
+    let wanted = "6: joint \"one\": a second <axis> says the same, and is skipped";
+    assert_eq!(notes, [wanted]);
+}
+
+/// What other readers take with a word or without one is taken, and named.
+#[test]
+fn what_is_supplied_is_named() {
+    let notes = notes(
+        r#"<link name="base"/>
+<link name="a"><inertial><mass value="1"/></inertial></link>
+<joint name="one" type="prismatic"><parent link="base"/><child link="a"/>
+  <mimic joint="index_q1"/>
+  <limit lower="1" upper="-1"/>
+</joint>"#,
+    );
+    let wanted = [
+        "3: link \"a\": <inertial> has no <inertia>, and zeros are taken",
+        "3: link \"a\": its principal moments of inertia are 0, 0, 0 kg m^2; they are taken as given",
+        "4: joint \"one\": it mimics \"index_q1\", which is no joint, and moves by itself",
+        "6: joint \"one\": the lower limit 1 exceeds the upper limit -1, and none is taken",
+    ];
+    assert_eq!(notes, wanted);
+}
+
+/// A hip of three hinges, of which two carry frames alone; and inertias that no body has. Bodies
+/// are `as_given`, and only those.
+#[test]
+fn inertias_are_taken_as_given_where_the_robot_has_inertia() {
+    let leg = r#"<link name="base"/>
+<link name="a"/>
+<link name="b"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="3" iyz="0" izz="1"/></inertial></link>
+<link name="c">MASS</link>
+<joint name="one" type="continuous"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/></joint>
+<joint name="two" type="continuous"><parent link="a"/><child link="b"/><axis xyz="1 0 0"/></joint>
+<joint name="three" type="continuous"><parent link="b"/><child link="c"/><axis xyz="0 1 0"/></joint>"#
+        .replace("MASS", WHOLE);
+    let wanted = "arm.urdf:4: link \"b\": joint \"two\" moves it, and its principal moments of inertia \
+                  are 1, 1, 3 kg m^2; no body has these: a moment up to the sum of the two others is \
+                  accepted; to take it as given, say `--accept-inertia` or `#[urdf(inertia = \"as given\")]`";
+    assert_eq!(refusal(&leg), wanted);
+    let wanted = [
+        "3: link \"a\": it has no mass, and moves by its joints",
+        "4: link \"b\": its principal moments of inertia are 1, 1, 3 kg m^2; no body has these; they are \
+         taken as given",
+    ];
+    assert_eq!(notes(&leg), wanted);
+    let mechanism = given(&leg).expect("it has inertia");
+    let as_given = mechanism.bodies.iter().map(|body| body.is_as_given);
+    assert_eq!(as_given.collect::<Vec<_>>(), [true, true, false]);
+    let source = mechanism.to_string();
+    assert_eq!(source.matches("as_given").count(), 2, "{source}");
+
+    // A motion with a negative kinetic energy is refused nevertheless.
+    let found = given(&leg.replace("iyy=\"3\"", "iyy=\"-3\"")).expect_err("it has none");
+    let wanted = "line 3: link \"a\": joint \"one\" moves it, and there is no mass; a positive mass and \
+                  inertia are accepted, or a `fixed` joint";
+    assert_eq!(found.to_string(), wanted);
+    let found = given(&leg.replace(
+        "ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"3\"",
+        "ixx=\"-9\" ixy=\"0\" ixz=\"0\" iyy=\"3\"",
+    ));
+    let found = found.expect_err("it has none").to_string();
+    let wanted = "line 4: link \"b\": joint \"two\" moves it, and neither it nor what it carries has an \
+                  inertia that resists; a positive mass and inertia are accepted, or a `fixed` joint";
+    assert_eq!(found.lines().last(), Some(wanted));
 }
 
 #[test]

@@ -213,6 +213,9 @@ fn described<'a>(
             ElementKind::Force => forces.push(element),
         }
     }
+    if !is_assembly {
+        bodies::coordinates(&bodies, coordinates, faults);
+    }
     let names = between.names;
     if names.is_empty() {
         faults.at(

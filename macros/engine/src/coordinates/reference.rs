@@ -63,17 +63,17 @@ impl Reduced {
             for gradient in self.scene.gradients_by_bodies(place, Frame::Global) {
                 let scene = &mut self.scene;
                 let mut sum = Arena::ZERO;
-                for body in 0..scene.mass.len() {
+                for body in 0..scene.metric.len() {
                     let force = gradient.force(&mut scene.space, body);
                     if !scene.space.is_zero(force) {
                         let force = scene.space.components(force, Frame::Global);
-                        let mass = scene.mass[body];
+                        let (mass, _) = scene.metric[body];
                         sum = plus_squares(&mut scene.space.arena, sum, force, [mass; 3]);
                     }
                     let moment = gradient.moment(&mut scene.space, body);
                     if !scene.space.is_zero(moment) {
                         let moment = scene.space.components(moment, Frame::Body(body));
-                        let inertia = scene.inertia[body];
+                        let (_, inertia) = scene.metric[body];
                         sum = plus_squares(&mut scene.space.arena, sum, moment, inertia);
                     }
                 }

@@ -17,7 +17,7 @@ use super::straight_line::StraightLine;
 use super::switches;
 use super::writer::Writer;
 use crate::coordinates::kernels::JointKernels;
-use crate::model::{Coordinates, Model};
+use crate::model::{Body, Coordinates, Model};
 use crate::plan::kernels::Kernels;
 use crate::symbolic::equations::Kernel;
 use crate::syntax::words::local;
@@ -264,7 +264,36 @@ impl Writer<'_> {
                 #value
             }
         });
+        if self.model.bodies.iter().any(|body| body.as_given) {
+            let given = self.places(|body| body.as_given);
+            tokens.extend(quote!(const AS_GIVEN: &'static [usize] = #given;));
+        }
+        let Some(metric) = &kernels.metric else {
+            return tokens;
+        };
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.line(metric);
+        let (kind, value) = velocities.written(&outputs);
+        let without = self.places(|body| !body.has_inertia());
+        tokens.extend(quote! {
+            const WITHOUT_INERTIA: &'static [usize] = #without;
+
+            fn metric<__S: #facade::Scalar>(#constants: &Self::Constants<__S>) -> #kind {
+                #statements
+                #value
+            }
+        });
         tokens
+    }
+
+    /// The places of some bodies.
+    fn places(&self, wanted: impl Fn(&Body) -> bool) -> TokenStream {
+        let bodies = self.model.bodies.iter().enumerate();
+        let places = bodies.filter(|(_, body)| wanted(body));
+        let places = places.map(|(place, _)| place);
+        quote!(&[#(#places),*])
     }
 
     /// The function of a kernel of constants, time (if it is declared) and state.

@@ -1,5 +1,6 @@
 //! A mechanism: bodies, joints, gravity.
 
+use std::borrow::Cow;
 use std::cmp::Reverse;
 use std::ops::Range;
 
@@ -66,8 +67,23 @@ pub struct Body {
     pub angular_velocity: [Number; 3],
     /// Whether it may go without a joint.
     pub free: bool,
+    /// Whether mass and inertia are taken as they are given, though no body may have them.
+    pub as_given: bool,
     /// What it looks like, where it is described by shapes.
     pub shapes: Vec<Shape>,
+}
+
+impl Body {
+    /// Whether mass and moments, as far as they are written out, are positive.
+    #[must_use]
+    pub fn has_inertia(&self) -> bool {
+        let moments: &[Number] = match self.kind {
+            BodyKind::Rigid => &self.inertia,
+            BodyKind::Particle => &[],
+        };
+        let mut all = moments.iter().chain([&self.mass]);
+        all.all(|number| number.literal().is_none_or(|value| value > 0.0))
+    }
 }
 
 /// What a mechanism gives for a parameter of a joint.
@@ -251,6 +267,40 @@ pub struct Model {
 }
 
 impl Model {
+    /// Whether a body has a mass or a moment that is not positive. Then the equations of the bodies
+    /// cannot be solved one by one, and motions follow from those of the joints alone.
+    #[must_use]
+    pub fn is_of_joints_alone(&self) -> bool {
+        !self.bodies.iter().all(Body::has_inertia)
+    }
+
+    /// The same with masses and moments that are positive, wherever they are not: the least ones
+    /// that are seen of the others. Where motions are compared or projected, these are a metric of
+    /// them; where they move by forces, nothing.
+    #[must_use]
+    pub fn with_metric(&self) -> Cow<'_, Self> {
+        if !self.is_of_joints_alone() {
+            return Cow::Borrowed(self);
+        }
+        let positive = |number: &Number| self.seen(*number).filter(|value| *value > 0.0);
+        let least = |numbers: &mut dyn Iterator<Item = &Number>| {
+            numbers.filter_map(positive).reduce(f64::min).unwrap_or(1.0)
+        };
+        let mass = least(&mut self.bodies.iter().map(|body| &body.mass));
+        let moment = least(&mut self.bodies.iter().flat_map(|body| &body.inertia));
+        let mut metric = self.clone();
+        for body in &mut metric.bodies {
+            let own = [(&mut body.mass, mass)].into_iter();
+            let moments = body.inertia.iter_mut().map(|own| (own, moment));
+            for (own, other) in own.chain(moments) {
+                if own.literal().is_some_and(|value| value <= 0.0) {
+                    *own = Number::Literal(other);
+                }
+            }
+        }
+        Cow::Owned(metric)
+    }
+
     /// A number as the macro sees it: written, or at the typical values of parameters.
     #[must_use]
     pub fn seen(&self, number: Number) -> Option<f64> {

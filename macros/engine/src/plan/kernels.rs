@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::equations::{
     Block, Kernel, coordinate_rates, counters, initial_state, jacobian, kinds, kinetic_energy,
-    mass, potential_energy, rows, state_rates, switches, vector_rows, with_scene,
+    mass, metric, potential_energy, rows, state_rates, switches, vector_rows, with_scene,
 };
 use crate::symbolic::scene::Scene;
 use crate::symbolic::separation::Separations;
@@ -69,6 +69,8 @@ pub struct Kernels {
     pub gamma: Kernel,
     /// The diagonal of the mass matrix.
     pub mass: Kernel,
+    /// The same with masses and moments that are positive, where a body has others.
+    pub metric: Option<Kernel>,
     /// `g`.
     pub forces: Kernel,
     /// Kinetic energy.
@@ -133,7 +135,7 @@ impl Kernels {
             if is_fused {
                 cheapest(model)
             } else {
-                first(model)
+                first(&model.with_metric())
             }
         });
         let evaluations = factorised.as_ref().filter(|_| is_fused);
@@ -159,6 +161,7 @@ impl Kernels {
             blocks,
             vector_rows: vector_rows(scene),
             mass: mass(scene, model),
+            metric: model.is_of_joints_alone().then(|| metric(scene, model)),
             forces: with_scene(scene, |scene| applied_forces(scene, &kinds(model))),
             kinetic_energy: kinetic_energy(scene),
             potential_energy: potential_energy(scene),

@@ -77,7 +77,13 @@ pub(super) fn length(model: &Model) -> f64 {
         .iter()
         .map(|point| norm(&[0, 1, 2].map(|k| point[k] - mean[k])))
         .fold(0.0, f64::max);
-    if largest.is_normal() { largest } else { 1.0 }
+    // All in one place, to round-off of the mean.
+    let far = points.iter().map(|point| norm(point)).fold(0.0, f64::max);
+    if largest > 1e-12 * far && largest.is_normal() {
+        largest
+    } else {
+        1.0
+    }
 }
 
 #[cfg(test)]

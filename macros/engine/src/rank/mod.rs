@@ -65,6 +65,7 @@ mod choice;
 pub(crate) mod closing;
 mod components;
 mod contradiction;
+mod definite;
 mod dense;
 mod displacement;
 mod geometry;
@@ -82,6 +83,7 @@ mod walk;
 use std::collections::BTreeSet;
 
 use self::contradiction::Contradicted;
+pub use self::definite::is_definite;
 pub use self::limits::TOLERANCE;
 use self::motion::{Configuration, Constraints};
 use self::normal::Normal;

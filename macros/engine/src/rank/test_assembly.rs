@@ -207,6 +207,7 @@ fn body(name: &Ident, position: [f64; 3], orientation: [f64; 4]) -> Body {
         velocity: [Number::ZERO; 3],
         angular_velocity: [Number::ZERO; 3],
         free: true,
+        as_given: false,
         shapes: Vec::new(),
     }
 }

@@ -114,6 +114,20 @@ pub(crate) fn mass(scene: &Scene, model: &Model) -> Kernel {
     })
 }
 
+/// The diagonal of a mass matrix that is positive definite: the same, unless a body is as given.
+pub(crate) fn metric(scene: &Scene, model: &Model) -> Kernel {
+    with_scene(scene, |scene| {
+        let mut diagonal = Vec::new();
+        for (&(mass, moments), kind) in scene.metric.iter().zip(kinds(model)) {
+            diagonal.extend([mass; 3]);
+            if kind == BodyKind::Rigid {
+                diagonal.extend(moments);
+            }
+        }
+        diagonal
+    })
+}
+
 pub(crate) fn kinetic_energy(scene: &Scene) -> Kernel {
     with_scene(scene, |scene| {
         let mut sum = Arena::ZERO;

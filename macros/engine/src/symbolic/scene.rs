@@ -67,6 +67,8 @@ pub struct Scene {
     pub mass: Vec<Expr>,
     /// Principal moments of inertia.
     pub inertia: Vec<Triple>,
+    /// Masses and principal moments that are positive: the same, unless a body is as given.
+    pub metric: Vec<(Expr, Triple)>,
     /// Gravity, global axes.
     pub gravity: Triple,
     /// Where things stand.
@@ -186,6 +188,15 @@ impl Scene {
             .bodies
             .iter()
             .map(|body| triple(&mut arena, body.inertia))
+            .collect();
+        let metric = model.with_metric();
+        let metric = metric
+            .bodies
+            .iter()
+            .map(|body| {
+                let mass = number(&mut arena, body.mass);
+                (mass, triple(&mut arena, body.inertia))
+            })
             .collect();
         let gravity = triple(&mut arena, model.gravity);
         let copies = all_copies(&mut arena, model);
@@ -319,6 +330,7 @@ impl Scene {
             orientation: charts.iter().map(|chart| chart.orientation).collect(),
             mass,
             inertia,
+            metric,
             gravity,
             layout,
             copies,

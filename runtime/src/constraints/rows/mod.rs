@@ -110,7 +110,7 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
     /// Norms of the rows of `D`, body by body.
     fn take_jacobian(&mut self, constants: &M::Constants<S>, state: &M::State<S>) {
         let jacobian = M::jacobian(constants, self.time, state);
-        let mass = M::mass(constants);
+        let mass = M::metric(constants);
         add_blocks(
             M::REPORT.blocks,
             jacobian.as_slice(),
@@ -416,7 +416,7 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         state: &M::State<S>,
     ) -> M::Multipliers<S> {
         let jacobian = M::jacobian(constants, self.time, state);
-        let mass = M::mass(constants);
+        let mass = M::metric(constants);
         let mut least = self.stiffness;
         for block in M::REPORT.blocks {
             let mut own = M::Multipliers::<S>::zeros();

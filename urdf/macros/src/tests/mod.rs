@@ -248,10 +248,12 @@ fn a_file_that_is_not_there_and_options_that_are_none_are_refused() {
     assert!(message.ends_with("a path from the folder of `Cargo.toml` is accepted"));
     assert_eq!(span.start().column, call.find('"').expect("it is there"));
 
-    let call = r#"[::holonom] #[urdf(float, passive, rounded)] struct Arm = "../arm.urdf";"#;
+    let call = r#"[::holonom] #[urdf(float, passive, rounded, inertia = "given")] struct Arm = "../arm.urdf";"#;
     let found = refusals(call);
-    let accepted = "`floating`, `passive` and `round_angles` are accepted";
-    let wanted = ["float", "rounded"].map(|word| format!("`{word}` is no option; {accepted}"));
+    let accepted =
+        "`floating`, `passive`, `round_angles` and `inertia = \"as given\"` are accepted";
+    let wanted = ["float", "rounded", "inertia = \"given\""]
+        .map(|word| format!("`{word}` is no option; {accepted}"));
     let messages: Vec<&String> = found.iter().map(|(message, _)| message).collect();
     assert_eq!(messages, wanted.iter().collect::<Vec<_>>());
     assert_eq!(

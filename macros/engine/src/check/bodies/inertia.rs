@@ -34,6 +34,9 @@ impl Reader<'_, '_> {
 
     /// Moments that a body can have, as far as the macro sees them.
     pub(super) fn moments(&mut self, expr: &Expr, moments: [Number; 3]) -> Option<()> {
+        if self.as_given {
+            return self.written_out(expr, &moments);
+        }
         let (name, place) = (self.name, place_of(&moments));
         let seen = moments.map(|moment| self.numbers.seen(moment));
         if seen.iter().any(|m| m.is_some_and(|moment| moment <= 0.0)) {

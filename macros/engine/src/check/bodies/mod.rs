@@ -5,7 +5,9 @@
 //! - `shape.rs`: shapes as they are written; `volume.rs`: their formulas, which `formula.rs` puts
 //!   together as expressions; `solid.rs`: what follows for a body, of several by `lumps.rs`;
 //!   `looks.rs`: where nothing follows, because mass and inertia are given.
+//! - `as_given.rs`: those that no body has.
 
+mod as_given;
 mod formula;
 mod inertia;
 mod leading;
@@ -20,7 +22,9 @@ mod volume;
 use proc_macro2::Span;
 use syn::Expr;
 
-use self::reader::Reader;
+pub(super) use self::as_given::coordinates;
+pub use self::as_given::judged;
+use self::reader::{AS_GIVEN, Reader};
 use self::solid::Solid;
 use super::number::Numbers;
 use super::pairs::Pairs;
@@ -44,6 +48,7 @@ pub fn check(
         name,
         numbers,
         faults,
+        as_given: false,
     };
     let solid = match kind {
         BodyKind::Rigid if is_shaped(&pairs) => reader.solid(&mut pairs, owner),
@@ -70,6 +75,7 @@ pub fn check(
         velocity: velocity?,
         angular_velocity: angular_velocity?,
         free,
+        as_given: solid.as_given,
         shapes: solid.shapes,
     })
 }
@@ -92,6 +98,7 @@ pub(super) fn rotation(
         name,
         numbers,
         faults,
+        as_given: false,
     };
     reader.at(attribute);
     reader.turn(expr)
@@ -111,6 +118,7 @@ pub fn port(name: &Name) -> Body {
         velocity: [Number::ZERO; 3],
         angular_velocity: [Number::ZERO; 3],
         free: true,
+        as_given: false,
         shapes: Vec::new(),
     }
 }
@@ -118,6 +126,7 @@ pub fn port(name: &Name) -> Body {
 impl Reader<'_, '_> {
     /// A body whose mass and inertia are given.
     fn measured(&mut self, pairs: &mut Pairs<'_>) -> Option<Solid> {
+        self.as_given = pairs.has(AS_GIVEN);
         let mass = self.required_mass(pairs);
         let example = "principal moments as in `inertia = [0.1, 0.1, 0.01]` (kg m^2), or a `shape`, or make it a `Particle`";
         let inertia = pairs.required("inertia", example, self.faults);
@@ -136,6 +145,7 @@ impl Reader<'_, '_> {
             Some(orientation) => self.orientation("orientation", orientation),
             None => Some(IDENTITY.map(Number::Literal)),
         };
+        let as_given = pairs.flag(AS_GIVEN, self.faults);
         let shapes = self.looks(written, position, orientation);
         let ((inertia, principal_axes), [e0, e1, e2, e3]) = (inertia?, axes?);
         Some(Solid {
@@ -145,6 +155,7 @@ impl Reader<'_, '_> {
             position: position?,
             orientation: orientation?,
             shapes: shapes?,
+            as_given,
         })
     }
 
@@ -159,6 +170,7 @@ impl Reader<'_, '_> {
             "shape",
             "shapes",
             "density",
+            AS_GIVEN,
         ] {
             pairs.refuse(
                 key,
@@ -173,6 +185,7 @@ impl Reader<'_, '_> {
             position: position?,
             orientation: IDENTITY.map(Number::Literal),
             shapes: Vec::new(),
+            as_given: false,
         })
     }
 

@@ -10,7 +10,7 @@ use syn::{Expr, ExprParen, parse_quote, token};
 
 use super::formula::product;
 use super::lumps::{Lump, about, norm, turned, unit};
-use super::reader::Reader;
+use super::reader::{AS_GIVEN, Reader};
 use super::rotation::cross;
 use super::shape::{Axes, Formulas};
 use crate::check::number::elements;
@@ -27,6 +27,8 @@ pub(super) struct Solid {
     pub(super) position: [Number; 3],
     pub(super) orientation: [Number; 4],
     pub(super) shapes: Vec<Shape>,
+    /// See [`crate::model::Body::as_given`].
+    pub(super) as_given: bool,
 }
 
 /// Where a shape or a body is: its centre of mass (m, global), and Euler parameters from its axes
@@ -66,7 +68,7 @@ impl Reader<'_, '_> {
         let mass = pairs.optional("mass", self.faults);
         let density = pairs.optional("density", self.faults);
         let orientation = pairs.optional("orientation", self.faults);
-        for key in ["inertia", "inertia_axes", "position"] {
+        for key in ["inertia", "inertia_axes", "position", AS_GIVEN] {
             pairs.refuse(key, FOLLOWS, self.faults);
         }
         let shapes = self.written(single, several, true)?;
@@ -201,6 +203,7 @@ impl Reader<'_, '_> {
             position: position?,
             orientation: orientation?,
             shapes: vec![drawn?],
+            as_given: false,
         })
     }
 
@@ -362,6 +365,7 @@ impl Reader<'_, '_> {
             position: centre.map(Number::Literal),
             orientation: axes.map(Number::Literal),
             shapes: drawn.into_iter().collect::<Option<_>>()?,
+            as_given: false,
         })
     }
 
