@@ -52,8 +52,8 @@ where
     K: Steps<Problem<Swing, F, Number, Relative>>,
 {
     let plant = Swing::default();
-    let mut stepper =
-        Stepper::<Problem<Swing, _, Number>, _>::new(&plant, formulation, scheme)?.joint_coordinates();
+    let mut stepper = Stepper::<Problem<Swing, _, Number>, _>::new(&plant, formulation, scheme)?
+        .joint_coordinates();
     let mut state = stepper.initial_state()?;
     for _ in 0..10 {
         stepper.update(&plant)?;
