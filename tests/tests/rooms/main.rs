@@ -108,7 +108,10 @@ const ENGINE_METHODS: [&[&str]; 8] = [
 ];
 
 /// The circles of files of `urdf`.
-const URDF_CIRCLES: [&[&str]; 1] = [&["describe", "robot"]];
+const URDF_CIRCLES: [&[&str]; 2] = [
+    &["describe", "robot"],
+    &["document", "mechanism", "visuals"],
+];
 
 #[test]
 fn rooms_of_the_run_time_read_one_way() {
