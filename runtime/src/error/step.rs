@@ -180,11 +180,7 @@ impl fmt::Display for StepFault {
             Self::ZeroOrientation { body } => {
                 write!(f, "the Euler parameters of body `{body}` have no length")
             }
-            Self::WithoutInertia { body } => write!(
-                f,
-                "the mass or inertia of `{body}`, as given, is not positive: the mechanism moves by its joints, and bodies have no equations \
-                 for accelerations, reactions and impulses of events"
-            ),
+            Self::WithoutInertia { body } => without_inertia(f, body),
             Self::RatesNotFinite { origin } => not_finite(f, origin),
             Self::Singular {
                 name,
@@ -279,6 +275,14 @@ impl fmt::Display for StepFault {
 }
 
 impl core::error::Error for StepFault {}
+
+fn without_inertia(f: &mut fmt::Formatter<'_>, body: &str) -> fmt::Result {
+    write!(
+        f,
+        "the mass or inertia of `{body}`, as given, is not positive: the mechanism moves by its joints, and bodies have no equations \
+         for accelerations, reactions and impulses of events"
+    )
+}
 
 fn not_finite(f: &mut fmt::Formatter<'_>, origin: NotFinite) -> fmt::Result {
     f.write_str("the rates of the state are not finite")?;

@@ -20,7 +20,8 @@ use super::{asked, kinds, parts, points, redundant};
 use crate::diag::{Faults, code, did_you_mean};
 use crate::model::name::Step;
 use crate::model::{
-    Asked, Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Part, Redundant,
+    Asked, Body, Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Part,
+    Redundant,
 };
 use crate::syntax::array::{is_constant, is_index};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
@@ -217,26 +218,7 @@ fn described<'a>(
         bodies::coordinates(&bodies, coordinates, faults);
     }
     let names = between.names;
-    if names.is_empty() {
-        faults.at(
-            &syntax.name,
-            format!(
-                "mechanism `{}` has no body; a field becomes one by `#[body(..)]`",
-                syntax.name
-            ),
-        );
-    }
-    for (place, name) in names.iter().enumerate() {
-        let free = bodies[place].as_ref().is_none_or(|body| body.free);
-        if mentioned.is_certain && !mentioned.bodies[place] && !free {
-            faults.at_name(
-                name,
-                format!(
-                    "no joint names the body `{name}`; connect it, or mark it free: `#[body(free, ..)]`"
-                ),
-            );
-        }
-    }
+    refuse_alone(syntax, (&names, &bodies), &mentioned, faults);
     let with_role = |wanted: Role| {
         let fields = syntax.fields.iter();
         let fields =
@@ -301,6 +283,35 @@ fn described<'a>(
         lengths: syntax.lengths.clone(),
     };
     Some(Checked { model, wish })
+}
+
+/// Refuses a mechanism without a body, and a body that no joint names.
+fn refuse_alone(
+    syntax: &MechanismSyntax,
+    (names, bodies): (&[&Name], &[Option<Body>]),
+    mentioned: &Mentioned,
+    faults: &mut Faults,
+) {
+    if names.is_empty() {
+        faults.at(
+            &syntax.name,
+            format!(
+                "mechanism `{}` has no body; a field becomes one by `#[body(..)]`",
+                syntax.name
+            ),
+        );
+    }
+    for (place, name) in names.iter().enumerate() {
+        let free = bodies[place].as_ref().is_none_or(|body| body.free);
+        if mentioned.is_certain && !mentioned.bodies[place] && !free {
+            faults.at_name(
+                name,
+                format!(
+                    "no joint names the body `{name}`; connect it, or mark it free: `#[body(free, ..)]`"
+                ),
+            );
+        }
+    }
 }
 
 /// The types of parts, by the way to each.

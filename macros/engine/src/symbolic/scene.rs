@@ -119,6 +119,17 @@ fn huygens(arena: &mut Arena, m: Expr, c: Triple) -> [Triple; 3] {
     tensor
 }
 
+/// Masses and principal moments that are positive, see [`Model::with_metric`].
+fn metric(arena: &mut Arena, model: &Model) -> Vec<(Expr, Triple)> {
+    let model = model.with_metric();
+    let bodies = model.bodies.iter();
+    let metric = bodies.map(|body| {
+        let mass = number(arena, body.mass);
+        (mass, triple(arena, body.inertia))
+    });
+    metric.collect()
+}
+
 impl Scene {
     /// The scene of a model with Euler parameters as they are, exact for any length of them.
     #[must_use]
@@ -179,25 +190,12 @@ impl Scene {
         paired: &PairedAngles<'_>,
     ) -> Self {
         let layout = model.layout();
-        let mass = model
-            .bodies
-            .iter()
-            .map(|body| number(&mut arena, body.mass))
-            .collect();
-        let inertia = model
-            .bodies
-            .iter()
-            .map(|body| triple(&mut arena, body.inertia))
-            .collect();
-        let metric = model.with_metric();
-        let metric = metric
-            .bodies
-            .iter()
-            .map(|body| {
-                let mass = number(&mut arena, body.mass);
-                (mass, triple(&mut arena, body.inertia))
-            })
-            .collect();
+        let bodies = || model.bodies.iter();
+        let mass = bodies().map(|body| number(&mut arena, body.mass));
+        let mass = mass.collect();
+        let inertia = bodies().map(|body| triple(&mut arena, body.inertia));
+        let inertia = inertia.collect();
+        let metric = metric(&mut arena, model);
         let gravity = triple(&mut arena, model.gravity);
         let copies = all_copies(&mut arena, model);
         let time = arena.input(Input::Time);
