@@ -96,9 +96,9 @@
 //! exact.
 //!
 //! Bodies without mass, and those with moments of zero or below, have no equations of motion of
-//! their own. A mechanism with such a body runs in joint coordinates only, and heeds no limits. It
-//! gives no accelerations and no reactions of bodies; such a reading is an error that names the
-//! body.
+//! their own. A mechanism with such a body runs in joint coordinates only. Its limits are refused
+//! by name until `.without_limits()` leaves them out. Accelerations and reactions of its bodies are
+//! errors that name a body.
 //!
 //! A `mimic` with an offset is violated with all joints at zero. Start with `assembled`.
 //!
