@@ -7,6 +7,7 @@ use crate::error::{Fault, ReadingFault, StartFault};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::law::Law;
 use crate::nonsmooth::quantity::{JointQuantity, JointReading, Quantity};
@@ -173,6 +174,18 @@ pub(crate) fn named<S: Real, M: Mechanism>(
             })
         }
     }
+}
+
+/// The effort (N m, N) of what a handle names, by what shows the efforts of all.
+pub(crate) fn effort_of<S: Real, M: Mechanism>(
+    list: &[Tracked<S, M>],
+    handle: InteractionHandle<M>,
+    find: impl FnOnce(&mut Show<'_, S>) -> Result<(), Fault>,
+) -> Result<S, Fault> {
+    let (place, _) = named(list, handle)?;
+    let mut effort = S::zero();
+    find(&mut |all| effort = all.get(place).map_or(effort, |exerted| exerted.effort))?;
+    Ok(effort)
 }
 
 /// Engages or releases what a handle names. A limit is neither.

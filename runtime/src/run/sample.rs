@@ -16,7 +16,7 @@ use crate::mechanism::handle::{BodyHandle, Driven, HasAngle, HasDisplacement, Jo
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
 use crate::nonsmooth::efforts::Show;
-use crate::nonsmooth::handle::{InteractionHandle, named};
+use crate::nonsmooth::handle::{InteractionHandle, effort_of, named};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{Impact, Tracked};
@@ -252,12 +252,8 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`], the fault of the
     /// evaluation.
     pub fn effort(&self, interaction: InteractionHandle<M>) -> Result<S, Fault> {
-        let (place, _) = named(self.dynamics.interactions(), interaction)?;
-        let mut effort = S::zero();
-        self.find_efforts(&mut |all| {
-            effort = all.get(place).map_or(effort, |exerted| exerted.effort);
-        })?;
-        Ok(effort)
+        let list = self.dynamics.interactions();
+        effort_of(list, interaction, |show| self.find_efforts(show))
     }
 
     /// The last impulse of an interaction in the run so far, if there was one.

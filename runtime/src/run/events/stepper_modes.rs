@@ -8,7 +8,7 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::turns;
-use crate::nonsmooth::handle::{InteractionHandle, engage, named};
+use crate::nonsmooth::handle::{InteractionHandle, effort_of, engage, named};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::status::Impact;
 use crate::run::stepper::{Stepper, Steps};
@@ -43,12 +43,10 @@ where
     /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`], the fault of the
     /// evaluation.
     pub fn effort(&self, interaction: InteractionHandle<M>, state: &State<P>) -> Result<S, Fault> {
-        let (place, _) = named(self.dynamics.tracked(), interaction)?;
-        let mut effort = S::zero();
-        self.dynamics.efforts(self.time(), state, &mut |all| {
-            effort = all.get(place).map_or(effort, |exerted| exerted.effort);
-        })?;
-        Ok(effort)
+        let time = self.time();
+        effort_of(self.dynamics.tracked(), interaction, |show| {
+            self.dynamics.efforts(time, state, show)
+        })
     }
 
     /// The last impulse of an interaction so far, if there was one.
