@@ -3,7 +3,7 @@
 use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 
-use crate::error::{Fault, ModeFault, StartFault, Unheeding};
+use crate::error::{Fault, ModeFault, StartFault};
 use crate::math::scalar::Real;
 use crate::mechanism::handle::JointHandle;
 use crate::mechanism::kernels::Mechanism;
@@ -377,10 +377,6 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     pub(crate) fn check(&self) -> Result<(), Fault> {
         let joint = self.name();
         let refuse = |setting, value| self.refused(setting, value);
-        if !M::WITHOUT_INERTIA.is_empty() && !self.is_dropped {
-            let by = Unheeding::WithoutInertia;
-            return Err(StartFault::LimitsLeftOut { joint, by }.into());
-        }
         if let Some(setting) = self.misplaced {
             return Err(Fault::Start(StartFault::MisplacedSetting {
                 joint,

@@ -131,13 +131,17 @@ impl<S: Real> Limits<S> {
         if sign > S::zero() { lower } else { upper }
     }
 
-    /// The restitution of an approach, beside the fastest one so far.
-    pub(crate) fn restitution(&self, approach: S, fastest: S) -> S {
-        let least = match self.rest {
+    /// The rate below which it rests, beside the fastest approach so far.
+    pub(crate) fn least(&self, fastest: S) -> S {
+        match self.rest {
             Rest::Below(rate) => rate,
             Rest::Part(part) => part * fastest,
-        };
-        if approach < least {
+        }
+    }
+
+    /// The restitution of an approach, beside the fastest one so far.
+    pub(crate) fn restitution(&self, approach: S, fastest: S) -> S {
+        if approach < self.least(fastest) {
             S::zero()
         } else {
             self.restitution

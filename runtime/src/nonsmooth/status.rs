@@ -230,6 +230,13 @@ impl<S: Real> Status<S> {
         self.mode == InteractionMode::Free && self.is_found && !self.has_left
     }
 
+    /// Whether a free flight that ends at a rate and a time (s) rose by no more than round-off: of
+    /// a parabola that is a quarter of their product.
+    pub(super) fn is_round_off(&self, rate: S, time: S) -> bool {
+        let is_flight = self.mode == InteractionMode::Free && self.is_found;
+        is_flight && rate * (time - self.since) <= S::constant(8.0) * self.band
+    }
+
     /// Whether the mode ends where the next reading is this one.
     pub(crate) fn is_met(&self, reading: S) -> bool {
         self.upwards(reading) >= S::zero()

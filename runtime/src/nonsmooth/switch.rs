@@ -115,6 +115,8 @@ struct Struck<S> {
     at_limit: Option<S>,
     /// It is friction that is engaged.
     is_engaged: bool,
+    /// It takes part in what has an impulse of its own.
+    is_struck: bool,
     impulse: S,
     /// It is at rest, to round-off.
     rests: bool,
@@ -128,6 +130,7 @@ impl<S: Real> Struck<S> {
             motion,
             at_limit: None,
             is_engaged: tracked.friction().is_some() && tracked.status.is_engaged,
+            is_struck: false,
             impulse: S::zero(),
             rests: false,
         }
@@ -166,10 +169,10 @@ where
     let columns = Columns::of(setting, list, &chosen)?;
     let before = all.each_ref().map(|one| one.before);
     let mut problem = BoxProblem::at_rest(columns.delassus, before);
-    let mut is_struck = false;
     for (index, tracked) in list.iter_mut().enumerate() {
-        is_struck |= tracked.collides(&all[index], &mut problem, index);
+        all[index].is_struck = tracked.collides(&all[index], &mut problem, index);
     }
+    let is_struck = all.iter().any(|one| one.is_struck);
     if is_struck {
         let impulses = solved(&problem, setting, list)?.efforts;
         for (index, row) in columns.delassus.iter().enumerate() {
@@ -182,6 +185,7 @@ where
         }
         report(setting, list, &all);
     }
+    let hops = hops(list, &all, &columns.delassus, setting.saddle.time);
     for (index, tracked) in list.iter().enumerate() {
         let status = tracked.status;
         let was_at_rest = !is_struck && !is_moved && (status.mode.holds() || status.is_found);
@@ -189,7 +193,7 @@ where
         let one = &mut all[index];
         let is_slow = one.motion.rate.abs() <= one.motion.none().max(unresolved);
         let rests = is_slow || was_at_rest && status.mode != InteractionMode::Free;
-        one.rests = one.is_chosen() && rests;
+        one.rests = one.is_chosen() && (rests || hops[index]);
     }
     let rests = all.each_ref().map(|one| one.rests);
     let last = Factors::of(&columns.delassus, &rests);
@@ -202,6 +206,46 @@ where
         tracked.enter_next(next.ok_or_else(|| no_mode(setting, tracked))?);
     }
     Ok(())
+}
+
+/// What an impulse elsewhere makes leave its limit no faster than what has no restitution, or by
+/// landings of nothing but round-off.
+///
+/// Limits that throw each other off by turns do so in a geometric series, whose last flights end
+/// within the round-off of a gap. As of restitution, the rest of it is left out. Approaches of
+/// different quantities are compared by their energies.
+fn hops<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    all: &[Struck<S>; K],
+    matrix: &[[S; K]; K],
+    time: S,
+) -> [bool; K] {
+    let fastest = |index: usize| {
+        let mut fastest = S::zero();
+        for (other, tracked) in list.iter().enumerate() {
+            let (at_limit, compliance) = (all[other].at_limit, matrix[other][other]);
+            let is_coupled = matrix[index][other] != S::zero() && compliance > S::zero();
+            if at_limit.is_some() && is_coupled {
+                let ratio = matrix[index][index].max(S::zero()).quotient(compliance);
+                fastest = fastest.max(ratio.sqrt() * tracked.status.fastest);
+            }
+        }
+        fastest
+    };
+    let mut landings = list.iter().zip(all).filter(|(_, one)| one.is_struck);
+    let are_round_off =
+        landings.all(|(tracked, one)| tracked.status.is_round_off(one.before.abs(), time));
+    core::array::from_fn(|index| {
+        let one = &all[index];
+        let (Some(limits), Some(sign)) = (list[index].interaction.law.limits(), one.at_limit)
+        else {
+            return false;
+        };
+        let (before, after) = (sign * one.before, sign * one.motion.rate);
+        let is_thrown = before <= one.motion.none() && one.impulse == S::zero();
+        let is_slow = are_round_off || after < limits.least(fastest(index));
+        is_thrown && after > S::zero() && is_slow
+    })
 }
 
 /// The fault of a quantity beyond its limit, where a driver has moved it there: it has no

@@ -96,6 +96,67 @@ fn a_rod_falls_on_its_ends() {
     falls::<Absolute>();
 }
 
+/// A foot that lands throws the other off. The speeds and times of that are a geometric series.
+fn rocks<C: Coordinates<Falling>>(rate: f64, bound: f64) {
+    let (falling, h) = (Falling::default(), Falling::HANDLES);
+    let mut start = falling.described_state().expect("it is described");
+    Falling::set_velocity(&mut start, h.rod, [0.0, 0.0, 0.2 * rate].into());
+    Falling::set_angular_velocity_global(&mut start, h.rod, [rate, 0.0, 0.0].into());
+    let floor = Plane::on_ground([0.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
+    let contacts = [h.foot, h.other_foot].map(|point| Interaction::contact(point, floor));
+    let feet = Interaction::handles(&contacts);
+    let (mut rests, mut lost, mut impacts) = (None, 0.0, 0);
+    let moment = 1.0 / 6.0 + 2.0 * 0.2 * 0.2;
+    let first = 2.0 * rate * moment / (2.0 * GRAVITY * 0.2);
+    let ratio = (1.0 / 2.0 - 0.04 * 6.0) / (1.0 / 2.0 + 0.04 * 6.0);
+    let wanted = first / (1.0 - ratio);
+    let report = Simulation::new(&falling, StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .initial_state(start)
+        .interactions(contacts)
+        .run(0.0..=2.0 * wanted, every_step(), |sample| {
+            let modes = feet.map(|foot| sample.mode(foot).expect("two interactions"));
+            if modes == [InteractionMode::AtLower; 2] {
+                rests.get_or_insert(sample.time());
+            } else {
+                assert_eq!(rests, None, "{rate}: it leaves again, {modes:?}");
+            }
+            for foot in feet {
+                if let Some(impact) = sample.impact(foot).expect("two interactions")
+                    && impact.time == sample.time()
+                    && impact.rates[0] < 0.0
+                    && sample.mode(foot) == Ok(InteractionMode::AtLower)
+                {
+                    lost = impact.lost_energy + lost;
+                    impacts += 1;
+                }
+            }
+        })
+        .expect("it rocks");
+    let rests: f64 = rests.expect("it comes to rest");
+    assert!(
+        (rests / wanted - 1.0).abs() < bound,
+        "{rate}: {rests} for {wanted}"
+    );
+    let energy = 0.5 * moment * rate * rate;
+    assert!(
+        (lost / energy - 1.0).abs() < 0.1 * bound,
+        "{rate}: {lost} of {energy}"
+    );
+    // The speeds fall below a ten-thousandth after nine impacts.
+    assert!(impacts < 12, "{rate}: {impacts}");
+    assert!(report.accepted < 300, "{rate}: {}", report.accepted);
+}
+
+#[test]
+fn a_rod_rocks_to_rest_on_two_feet() {
+    // The slowest flight rises by 1e-12 m, and those that follow end within the round-off of a gap.
+    for (rate, bound) in [(1e-1, 1e-3), (1e-3, 2e-3), (1e-5, 0.2)] {
+        rocks::<Relative>(rate, bound);
+        rocks::<Absolute>(rate, bound);
+    }
+}
+
 #[test]
 fn a_rod_at_rest_stands_on_both_ends() {
     let (falling, h) = (Falling::default(), Falling::HANDLES);

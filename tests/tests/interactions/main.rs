@@ -84,6 +84,10 @@ struct Falling {
     end: Point,
     #[point(on = rod, at = [0.0, -0.5, 1.0])]
     other: Point,
+    #[point(on = rod, at = [0.0, 0.2, 1.0])]
+    foot: Point,
+    #[point(on = rod, at = [0.0, -0.2, 1.0])]
+    other_foot: Point,
 }
 
 /// A motor, and an output with two gears.
