@@ -213,7 +213,8 @@ impl<S: Real> Status<S> {
         self.is_found = false;
         self.is_asked = false;
         self.has_left = reading > two * floor;
-        self.band = floor.max(two * reading.abs());
+        // A reading of exactly zero, of what bears nothing, is at zero.
+        self.band = floor.max(two * reading.abs()).max(S::smallest());
     }
 
     /// What is held is brought back at a time: without its effort it would have got a rate.

@@ -187,3 +187,26 @@ fn what_sticks_slips_beyond_its_stiction() {
 
 /// See the last test.
 const STRIBECK: f64 = 2.0686151042034;
+
+/// A capacity that a handler or a table has set to zero: nothing acts, or it moves freely.
+#[test]
+fn friction_without_a_capacity_does_not_change_its_mode_without_end() {
+    for (push, speed) in [(0.0, 0.0), (0.0, 0.5), (1e-3, 0.0), (-2.0, 0.5)] {
+        let block = pushed(push);
+        let (frictions, _) = rubs(0.0);
+        block
+            .simulation(StandardLagrange, DormandPrince::new(tight()))
+            .initial_state(moving(&block, speed))
+            .interactions(frictions)
+            .run(0.0..=1.0, every(0.25), |sample| {
+                let time = sample.time();
+                let wanted = time * (speed + 0.5 * push / MASS * time);
+                let place = sample.displacement(Block::HANDLES.slide);
+                assert!(
+                    (place - wanted).abs() < 1e-10,
+                    "{push} {speed}: {place} {wanted}"
+                );
+            })
+            .unwrap_or_else(|error| panic!("{push} {speed}: {error}"));
+    }
+}
