@@ -96,9 +96,8 @@
 //! exact.
 //!
 //! Bodies without mass, and those with moments of zero or below, have no equations of motion of
-//! their own. A mechanism with such a body runs in joint coordinates only. Its limits are refused
-//! by name until `.without_limits()` leaves them out. Accelerations and reactions of its bodies are
-//! errors that name a body.
+//! their own. A mechanism with such a body runs in joint coordinates only. Accelerations and
+//! reactions of its bodies are errors that name a body.
 //!
 //! A `mimic` with an offset is violated with all joints at zero. Start with `assembled`.
 //!

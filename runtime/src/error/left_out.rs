@@ -23,6 +23,4 @@ pub enum Unheeding {
     Ensemble,
     /// Runs that carry derivatives, and gradients.
     Derivatives,
-    /// A mechanism with a body whose mass or inertia is not positive.
-    WithoutInertia,
 }

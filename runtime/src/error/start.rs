@@ -273,6 +273,5 @@ fn who(by: Unheeding) -> &'static str {
         Unheeding::DenseStep => "`step_dense` and `step_until` do",
         Unheeding::Ensemble => "an ensemble does",
         Unheeding::Derivatives => "runs that carry derivatives do",
-        Unheeding::WithoutInertia => "a mechanism with a body without mass or inertia does",
     }
 }

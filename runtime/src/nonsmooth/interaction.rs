@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 use crate::error::{Fault, ModeFault, StartFault};
 use crate::math::scalar::Real;
 use crate::mechanism::handle::JointHandle;
-use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::kernels::{Mechanism, have_equations};
 use crate::mechanism::limits::JointLimits;
 use crate::mechanism::point::Located;
 use crate::nonsmooth::bearing::{Bearing, HasBearing};
@@ -349,6 +349,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
 
     /// Refuses settings of friction by load, and a joint whose load is not determined.
     fn check_bearing(&self, friction: &Friction<S>, bearing: &Bearing<S>) -> Result<(), Fault> {
+        have_equations::<M>()?;
         let joint = self.name();
         let refuse = |setting, value| self.refused(setting, value);
         let Quantity::Joint(reading) = self.quantity else {

@@ -1,6 +1,6 @@
 //! A robot with links that have no mass, against a body on a ball joint, which knows of no links.
 
-use holonom::error::{StartFault, StepFault, Unheeding};
+use holonom::error::StepFault;
 use holonom::prelude::*;
 
 holonom::urdf! { struct Hip = "tests/data/hip.urdf"; }
@@ -80,18 +80,67 @@ fn accelerations_and_reactions_are_refused_by_name() -> Result<(), Box<dyn std::
             assert_eq!(sample.reaction(h.hip_z, h.yoke).err(), Some(without));
             assert!((sample.gravity().z + 9.81).abs() < 1e-12);
         })?;
-    let stop = Interaction::limits(h.hip_y.angle(), [-1.0, 1.0]);
-    let limited = hip
+    let by_load = hip
         .simulation(StandardLagrange, DormandPrince::default())
-        .interactions([stop])
+        .interactions([Interaction::friction_by_load(h.hip_y, 0.1).radius(0.02)])
         .run(0.0..=0.1, every(0.1), |_| ());
-    let left_out = StartFault::LimitsLeftOut {
-        joint: "hip_y",
-        by: Unheeding::WithoutInertia,
+    let without = Fault::Step(StepFault::WithoutInertia { body: "yoke" });
+    assert_eq!(by_load.err().map(|error| error.fault), Some(without));
+    Ok(())
+}
+
+/// An impulse on a stop changes the momentum of its own angle alone. Momenta are differences of the
+/// kinetic energy of the bodies.
+#[test]
+fn a_stop_between_links_without_mass_has_one_impulse() -> Result<(), Box<dyn std::error::Error>> {
+    const RESTITUTION: f64 = 0.5;
+    let hip = Hip::default();
+    let h = Hip::HANDLES;
+    let hinges = [h.hip_z, h.hip_x, h.hip_y];
+    let momenta = |state: &StateOf<Hip>| -> Result<[f64; 3], Fault> {
+        let mut momenta = [0.0; 3];
+        for (momentum, hinge) in momenta.iter_mut().zip(hinges) {
+            let rate = hip.view(0.0, state)?.angle_rate(hinge);
+            let mut energies = [0.0; 2];
+            for (energy, change) in energies.iter_mut().zip([0.5, -0.5]) {
+                let mut other = *state;
+                hip.set_angle_rate(&mut other, hinge, rate + change)?;
+                *energy = hip.view(0.0, &other)?.kinetic_energy();
+            }
+            *momentum = energies[0] - energies[1];
+        }
+        Ok(momenta)
     };
-    assert_eq!(
-        limited.err().map(|error| error.fault),
-        Some(left_out.into())
-    );
+    let mut start = hip.described_state::<f64>()?;
+    for (hinge, rate) in hinges.into_iter().zip([0.7, -1.1, 1.6]) {
+        hip.set_angle_rate(&mut start, hinge, rate)?;
+    }
+    let stops = [Interaction::limits(h.hip_y.angle(), [-0.3, 0.3]).restitution(RESTITUTION)];
+    let [stop] = Interaction::handles(&stops);
+    let mut last = start;
+    let mut impacts = 0;
+    hip.simulation(StandardLagrange, DormandPrince::default())
+        .initial_state(start)
+        .interactions(stops)
+        .run(0.0..=3.0, every_step(), |sample| -> Result<(), Fault> {
+            assert!(sample.angle(h.hip_y).abs() < 0.3 + 1e-9);
+            let state = *sample.state();
+            if let Some(impact) = sample.impact(stop)?
+                && impact.time == sample.time()
+                && impact.rates[1] * sample.angle_rate(h.hip_y) > 0.0
+            {
+                let [before, after] = impact.rates;
+                assert!((after + RESTITUTION * before).abs() < 1e-12);
+                let pairs = momenta(&state)?.into_iter().zip(momenta(&last)?);
+                let changes = pairs.map(|(after, before)| after - before);
+                for (change, wanted) in changes.zip([0.0, 0.0, impact.impulse]) {
+                    assert!((change - wanted).abs() < 1e-9, "{change} for {wanted}");
+                }
+                impacts += 1;
+            }
+            last = state;
+            Ok(())
+        })?;
+    assert!(impacts > 1, "{impacts}");
     Ok(())
 }
