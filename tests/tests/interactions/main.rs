@@ -8,6 +8,7 @@ mod contacts;
 mod currents;
 mod described;
 mod descriptions;
+mod factors;
 mod faults;
 mod loops;
 mod shafts;
