@@ -121,10 +121,68 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     }
 
     /// Two points whose distance is at least this one (m), without friction: two balls, with the
-    /// sum of their radii.
+    /// sum of their radii. [`Interaction::strut`] is the same.
     #[must_use]
     pub fn contact_of_balls(first: impl Located<M>, second: impl Located<M>, distance: S) -> Self {
-        Self::apart(Quantity::Distance(At::of(first), At::of(second)), distance)
+        Self::strut(first, second, distance)
+    }
+
+    /// A rope between two points: it does not stretch beyond its length (m), has no mass, and goes
+    /// slack where they come closer. Each point is a named point, of a body or of the ground, or a
+    /// centre of mass.
+    ///
+    /// Its effort is the tension (N) with a negative sign: it acts against a distance that grows.
+    /// A rope that is drawn tight gives an impulse, with [`Interaction::restitution`].
+    ///
+    /// ```
+    /// use holonom::prelude::*;
+    ///
+    /// /// A bob of 2 kg beside a nail, let go 0.6 m from it.
+    /// #[derive(Mechanism)]
+    /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// struct Bob {
+    ///     #[body(free, mass = 2.0, position = [0.6, 0.0, 0.0])]
+    ///     bob: Particle,
+    ///     #[point(on = ground, at = [0.0, 0.0, 0.0])]
+    ///     nail: Point,
+    /// }
+    ///
+    /// let (bob, h) = (Bob::default(), Bob::HANDLES);
+    /// let interactions = [Interaction::rope(h.nail, h.bob, 1.0)];
+    /// let [rope] = Interaction::handles(&interactions);
+    /// bob.simulation(StandardLagrange, DormandPrince::default())
+    ///     .interactions(interactions)
+    ///     .run(0.0..=2.0, every(0.01), |sample| -> Result<(), Fault> {
+    ///         assert!(sample.position(h.bob).norm() < 1.0 + 1e-9);
+    ///         assert!(sample.effort(rope)? <= 0.0);
+    ///         if let Some(impact) = sample.impact(rope)? {
+    ///             // It has fallen by 0.8 m, and loses what is along the rope.
+    ///             let rate = 0.8 * f64::sqrt(2.0 * 9.81 * 0.8);
+    ///             assert!((impact.impulse + 2.0 * rate).abs() < 1e-6);
+    ///         }
+    ///         Ok(())
+    ///     })?;
+    /// # Ok::<(), RunError<StateOf<Bob>, Fault>>(())
+    /// ```
+    #[must_use]
+    pub fn rope(first: impl Located<M>, second: impl Located<M>, length: S) -> Self {
+        Self::distance(first, second, [S::constant(f64::NEG_INFINITY), length])
+    }
+
+    /// A strut between two points, as of [`Interaction::rope`]: it does not become shorter than its
+    /// length (m), and does not pull. Its effort (N) is positive.
+    #[must_use]
+    pub fn strut(first: impl Located<M>, second: impl Located<M>, length: S) -> Self {
+        Self::distance(first, second, [length, S::constant(f64::INFINITY)])
+    }
+
+    /// Stops at the least and at the greatest distance (m) of two points, as of
+    /// [`Interaction::rope`]. Infinite where there is none: a least distance is positive, or
+    /// `f64::NEG_INFINITY`. Efforts (N) are positive where they push the points apart.
+    #[must_use]
+    pub fn distance(first: impl Located<M>, second: impl Located<M>, bounds: [S; 2]) -> Self {
+        let quantity = Quantity::Distance(At::of(first), At::of(second));
+        Self::new(quantity, Law::Limits(Limits::between(bounds)))
     }
 
     fn apart(quantity: Quantity<S>, least: S) -> Self {
@@ -373,6 +431,17 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         }
     }
 
+    /// Refuses distances that have no direction.
+    fn check_distances(&self, limits: &Limits<S>) -> Result<(), Fault> {
+        let has_direction = |bound: &S| !bound.is_finite() || *bound > S::zero();
+        let [lower, _] = limits.bounds;
+        match limits.bounds.iter().find(|bound| !has_direction(bound)) {
+            Some(bound) if *bound == lower => self.refused("least distance", lower),
+            Some(bound) => self.refused("greatest distance", *bound),
+            None => Ok(()),
+        }
+    }
+
     /// Refuses settings that are not acceptable.
     pub(crate) fn check(&self) -> Result<(), Fault> {
         let joint = self.name();
@@ -391,6 +460,9 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
             && !plane.is_finite()
         {
             return refuse("normal", S::zero());
+        }
+        if let (Quantity::Distance(..), Some(limits)) = (self.quantity, self.law.limits()) {
+            self.check_distances(limits)?;
         }
         if let Err((setting, value)) = self.law.check() {
             return refuse(setting, value);

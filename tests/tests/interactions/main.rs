@@ -11,6 +11,7 @@ mod descriptions;
 mod factors;
 mod faults;
 mod loops;
+mod ropes;
 mod shafts;
 mod steps;
 mod switched;
