@@ -326,6 +326,9 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Heed
     }
 
     fn scale_now(&self, view: &View<'_, S, M>, list: &mut [Tracked<S, M>]) -> Result<(), Fault> {
+        for tracked in list.iter_mut() {
+            tracked.status.factor = S::one();
+        }
         self.forces.scale(view, &self.inputs, list)
     }
 }

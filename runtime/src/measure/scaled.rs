@@ -126,7 +126,7 @@ where
             }));
         }
         if let Some(tracked) = list.get_mut(place) {
-            tracked.status.factor = factor;
+            tracked.status.factor = tracked.status.factor * factor;
         }
         Ok(())
     }

@@ -80,8 +80,8 @@ where
 
     /// Multiplies the capacity of dry friction, of a brake or of a clutch by a function of the
     /// motion and of the inputs, and the capacity of its [`Interaction::stiction`] likewise. Of
-    /// friction by load it multiplies the coefficients. Said behind
-    /// [`Simulation::interactions`], once for each interaction.
+    /// friction by load it multiplies the coefficients. It is said behind
+    /// [`Simulation::interactions`]. Several functions of one interaction are multiplied.
     ///
     /// Modes follow the capacity of the same instant: what sticks slides from where the capacity
     /// falls below the effort. The function is called at trial states and may remember nothing, as

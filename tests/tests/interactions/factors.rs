@@ -203,6 +203,31 @@ fn inputs_scale_a_capacity_between_steps_and_instants() {
     );
 }
 
+/// Two functions are multiplied, and what else is said of a run may come before and behind.
+#[test]
+fn functions_of_one_capacity_are_multiplied() {
+    let (block, slide) = (Block::new(0.0, 0.0).expect("a block"), Block::HANDLES.slide);
+    let interactions = [Interaction::friction(slide.displacement(), 8.0)];
+    let [friction] = Interaction::handles(&interactions);
+    let report = block
+        .simulation(StandardLagrange, RadauIIA::new(tight()))
+        .interactions(interactions)
+        .capacity_factor(friction, |view, _| 1.0 - 0.5 * view.time())
+        .without_limits()
+        .capacity_factor(friction, |view, _| 1.0 - 0.5 * view.time())
+        .forces(|_, _, loads| loads.force_between(slide, 2.0))
+        .verified()
+        .run(0.0..=2.0, every(0.5), |_| ())
+        .expect("it slips");
+    // v' = 1 - (2 - t)^2 from 1 s on
+    let view = block.view(2.0, &report.state).expect("a view");
+    let rate = view.displacement_rate(slide);
+    assert!((rate - (1.0 - 1.0 / 3.0)).abs() < 1e-9, "{rate}");
+    let found = report.verification.expect("it is asked for");
+    let worst = found.worst().expect("a body");
+    assert!(found.ended.is_none() && worst.position < 1e-6, "{worst:?}");
+}
+
 /// Nothing to hold, and nothing to hold it with.
 #[test]
 fn a_capacity_of_zero_holds_nothing() {
