@@ -220,8 +220,8 @@ pub use run::stepper::Stepper;
 pub use state::vector::StateParts;
 
 /// What a program with a mechanism needs: `use holonom::prelude::*;`. All joints, forces,
-/// formulations and integrators of the library are among it. One of your own with the name of one of them is imported by name from the
-/// module that defines it.
+/// formulations and integrators of the library are among it. One of your own with the name of one
+/// of them is imported by name from the module that defines it.
 pub mod prelude {
     pub use core::ops::ControlFlow;
 

@@ -220,8 +220,8 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The power (W) of the forces of the language that have no potential
     /// ([`View::power`]), and of the interactions: what changes the energy of a mechanism without
     /// drivers and without a force closure, besides impacts ([`Impact::lost_energy`]). One
-    /// evaluation where friction slides by its load, or a function scales a capacity; NaN where that
-    /// cannot be done.
+    /// evaluation where friction slides by its load, or a function scales a capacity; NaN where
+    /// that cannot be done.
     #[must_use]
     pub fn power(&self) -> S {
         let list = self.dynamics.interactions();

@@ -99,8 +99,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     }
 
     /// The phases of an instant, in their order: impulses and modes of interactions, handlers,
-    /// relays, controllers, signs. Laws that have switched are turned before. After each phase that has
-    /// changed anything, sides of laws and modes of interactions are found anew.
+    /// relays, controllers, signs. Laws that have switched are turned before. After each phase that
+    /// has changed anything, sides of laws and modes of interactions are found anew.
     pub(crate) fn act(
         &mut self,
         is_found: bool,

@@ -116,13 +116,13 @@ where
         })
     }
 
-    /// A relay with hysteresis: calls a handler with `true` where a reading reaches the upper one
-    /// of two thresholds from below, and with `false` where it then reaches the lower one from
-    /// above. Between them it stays as it is.
+    /// A relay with hysteresis, by two thresholds of a reading. It calls a handler with `true`
+    /// where the reading rises to the upper one, and with `false` where it then falls to the lower
+    /// one. Between them it stays as it is.
     ///
     /// The handler is called at the start as well, with `true` only for a reading at the upper
-    /// threshold or above. So inputs that it sets are right from the start on. Where another handler
-    /// takes the reading past the threshold that is next, it is called at the same instant.
+    /// threshold or above. So inputs that it sets are right from the start on. Where another
+    /// handler takes the reading past the threshold that is next, it is called at the same instant.
     ///
     /// ```
     /// use holonom::prelude::*;
