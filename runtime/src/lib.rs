@@ -219,9 +219,9 @@ pub use run::simulation::Simulation;
 pub use run::stepper::Stepper;
 pub use state::vector::StateParts;
 
-/// What a program with a mechanism needs: `use holonom::prelude::*;`. All joints and forces of the
-/// library are among it. One of your own with the name of one of them is imported by name from the
-/// module that defines it.
+/// What a program with a mechanism needs: `use holonom::prelude::*;`. All joints, forces,
+/// formulations and integrators of the library are among it. One of your own with the name of one
+/// of them is imported by name from the module that defines it.
 pub mod prelude {
     pub use core::ops::ControlFlow;
 
@@ -235,9 +235,11 @@ pub mod prelude {
     pub use crate::sensitivity::SensitivityExt;
     pub use crate::spline::Spline;
     pub use crate::{
-        AugmentedLagrangian, Baumgarte, Body, DormandPrince, Fault, Formulation, JointCoordinates,
-        KinematicAnalysis, Loads, Mechanism, MechanismExt, ParameterError, Particle, Penalty,
-        Projection, Rk4, RunError, RunReport, RunResult, Sample, Simulation, SimulationError,
+        Adams, AdamsBashforthMoulton4, AugmentedLagrangian, Baumgarte, Bdf, Body, BogackiShampine,
+        DormandPrince, DormandPrince853, Fault, Formulation, GeneralizedAlpha, Heun,
+        ImplicitMidpoint, JointCoordinates, KinematicAnalysis, Kutta3, Loads, Mechanism,
+        MechanismExt, Midpoint, ParameterError, Particle, Penalty, Projection, RadauIIA, Rk4,
+        RunError, RunReport, RunResult, Sample, SemiImplicitEuler, Simulation, SimulationError,
         StandardLagrange, StateParts, Stepper, Tolerance, View, every, every_step,
     };
 }

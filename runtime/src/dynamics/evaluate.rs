@@ -303,6 +303,12 @@ where
         list: &mut L,
         task: Task<'_, S, M, C>,
     ) -> Result<(), Fault> {
+        if A::SCALES {
+            setting.here(|scene| {
+                let view = View::new(scene.constants, scene.time, scene.bodies);
+                self.forces.scale_now(&view, list.as_mut())
+            })?;
+        }
         if C::IS_RELATIVE && task.asks_for_loads(list.as_ref()) {
             self.with_reactions(setting, |reactions| {
                 perform(setting, Some(reactions), list, task)
@@ -418,6 +424,9 @@ pub(crate) trait Evaluate<S: Real, M: Mechanism> {
     /// The interactions, with their statuses.
     fn interactions(&self) -> &[Tracked<S, M>];
 
+    /// Whether functions scale their capacities.
+    fn scales_capacities(&self) -> bool;
+
     /// The same, to be changed.
     fn interactions_mut(&mut self) -> &mut [Tracked<S, M>];
 
@@ -448,6 +457,10 @@ where
 
     fn interactions(&self) -> &[Tracked<S, M>] {
         self.forces.interactions()
+    }
+
+    fn scales_capacities(&self) -> bool {
+        P::Forces::SCALES
     }
 
     fn interactions_mut(&mut self) -> &mut [Tracked<S, M>] {

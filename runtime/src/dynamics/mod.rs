@@ -314,6 +314,7 @@ where
     pub(crate) fn take_parameters(&mut self, parameters: M::Parameters<S>) -> Result<(), Fault> {
         self.absolute = equations::<S, M, F>(&parameters, &self.formulation, &self.stabilisation)?;
         self.own = C::own(&parameters, &self.stabilisation, &self.absolute);
+        self.forces.take_inputs(&parameters);
         self.parameters = parameters;
         Ok(())
     }
@@ -326,6 +327,7 @@ where
     #[inline]
     pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), ParameterError> {
         M::put_inputs(inputs, &mut self.parameters)?;
+        self.forces.take_inputs(&self.parameters);
         M::take_inputs(&self.parameters, &mut self.absolute.constants);
         C::take_inputs(&self.parameters, &mut self.own);
         Ok(())

@@ -43,6 +43,17 @@ pub enum ModeFault {
         /// The time (s).
         time: f64,
     },
+    /// The factor of a capacity
+    /// ([`Simulation::capacity_factor`](crate::Simulation::capacity_factor)) is negative or not
+    /// finite.
+    CapacityFactor {
+        /// The field of the joint.
+        joint: &'static str,
+        /// The factor.
+        factor: f64,
+        /// The time (s).
+        time: f64,
+    },
     /// The load of a joint with friction by it is not determined. Equations of the joint depend on
     /// others, or what is held shares its efforts in a way that nothing decides.
     LoadNotUnique {
@@ -106,6 +117,16 @@ impl fmt::Display for ModeFault {
                 f,
                 "at {} s the friction of `{joint}` by its load has no effort, or several (Painleve's paradox): what it adds to its own load, times its coefficient, \
                  reaches 1; take a smaller coefficient, a longer guide, or a spring and a damper that bear the load",
+                Given(time)
+            ),
+            Self::CapacityFactor {
+                joint,
+                factor,
+                time,
+            } => write!(
+                f,
+                "the factor of the capacity of the friction on `{joint}` is {} at {} s: it must be finite and not negative",
+                Given(factor),
                 Given(time)
             ),
             Self::LoadNotUnique { joint } => write!(

@@ -118,8 +118,8 @@ const NOT_VERIFIED: &str = "a run with handlers, controllers, checkpoints or a t
 
 const NOT_LED: &str = "a run that is led by `begin()` is not verified, keeps no checkpoints and records no trajectory; `run(..)` does so, with an observer";
 
-const PLACES: &str = "`restitution` and `rest_below` are of limits, `radius` of a point and a plane, and of a hinge with friction by load, `guide` \
-     of friction by load, `stiction`, `stribeck`, `released`, `engage` and `release` of friction, brakes and clutches";
+const PLACES: &str = "`restitution` and `rest_below` are of limits, `radius` of a point and a plane, of a hinge and of a screw with friction by load, `guide` \
+     of slides and hinges with friction by load, `collar` of such hinges, `stiction`, `stribeck`, `released`, `engage` and `release` of friction, brakes and clutches, `capacity_factor` of those whose capacity is finite";
 
 const NO_INTERACTIONS: &str = "`GeneralizedAlpha` does not move a mechanism with limits or other interactions; every other method does, `RadauIIA` where the system is stiff, and `.without_limits()` leaves out the limits of the description";
 
@@ -248,10 +248,14 @@ fn rule(setting: &str) -> &'static str {
         "stribeck" => {
             "it is the rate by which friction falls from `.stiction(..)`, positive and finite, and says nothing without that"
         }
+        "least distance" => "it is positive, or `f64::NEG_INFINITY` where there is none",
+        "greatest distance" => "it is positive, and infinite where there is none",
         "normal" => "a normal has a length",
         "coefficient" => "a coefficient of friction by load is finite",
-        "radius" => "a hinge with friction by load has a positive radius, by `.radius(..)`",
-        "guide" => "it is a length, positive and finite",
+        "radius" => {
+            "a hinge or a screw with friction by load has a positive radius, by `.radius(..)`"
+        }
+        "guide" | "collar" => "it is a length, positive and finite",
         _ => "it is finite",
     }
 }

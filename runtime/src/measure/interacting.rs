@@ -6,6 +6,7 @@ use crate::error::Fault;
 use crate::formulation::{Formulation, Solution};
 use crate::math::scalar::{Real, Scalar};
 use crate::measure::load::{AppliedForces, Loads};
+use crate::measure::view::View;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::{Nothing, Several, Visit};
@@ -53,6 +54,7 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>, const K: usize> AppliedForce
     const PRESENT: bool = A::PRESENT;
     const INTERACTS: bool = K > 0;
     const HEEDS: bool = A::HEEDS;
+    const SCALES: bool = A::SCALES;
 
     type Tracked = [Tracked<S, M>; K];
     type Own = [Tracked<S, M>; K];
@@ -78,6 +80,15 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>, const K: usize> AppliedForce
             list: self.list,
         }
     }
+
+    fn scale(
+        &self,
+        view: &View<'_, S, M>,
+        inputs: &M::Inputs<S>,
+        list: &mut [Tracked<S, M>],
+    ) -> Result<(), Fault> {
+        self.forces.scale(view, inputs, list)
+    }
 }
 
 /// Forces without the limits of the description
@@ -93,6 +104,7 @@ impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Un
     const PRESENT: bool = A::PRESENT;
     const INTERACTS: bool = A::INTERACTS;
     const HEEDS: bool = false;
+    const SCALES: bool = A::SCALES;
 
     type Tracked = A::Own;
     type Own = A::Own;
@@ -121,12 +133,26 @@ impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Un
     fn with<B: AppliedForces<S, M>>(self, forces: B) -> Self::With<B> {
         Unlimited(self.0.with(forces))
     }
+
+    fn scale(
+        &self,
+        view: &View<'_, S, M>,
+        inputs: &M::Inputs<S>,
+        list: &mut [Tracked<S, M>],
+    ) -> Result<(), Fault>
+    where
+        S: Real,
+    {
+        self.0.scale(view, inputs, list)
+    }
 }
 
 /// Forces in a run or a stepper under way, with the statuses of all interactions.
 pub struct Heeding<S: Scalar, M: Mechanism, A: AppliedForces<S, M>> {
     forces: A,
     list: A::Tracked,
+    /// For functions that scale capacities.
+    inputs: M::Inputs<S>,
 }
 
 impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M> + Clone> Clone for Heeding<S, M, A> {
@@ -134,6 +160,7 @@ impl<S: Scalar, M: Mechanism, A: AppliedForces<S, M> + Clone> Clone for Heeding<
         Self {
             forces: self.forces.clone(),
             list: self.list.clone(),
+            inputs: self.inputs,
         }
     }
 }
@@ -153,6 +180,7 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> Heeding<S, M, A> {
         Self {
             list: forces.tracked(parameters),
             forces,
+            inputs: M::inputs_of(parameters),
         }
     }
 
@@ -164,6 +192,31 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> Heeding<S, M, A> {
     /// All interactions, with their statuses now.
     pub(crate) fn list(&self) -> &A::Tracked {
         &self.list
+    }
+
+    /// Adds the efforts of friction that slides, by the capacities of the instant. A factor that is
+    /// not acceptable adds none, and is refused where the solution is completed.
+    #[inline(never)]
+    fn slide_scaled(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>) {
+        let mut list = self.list.clone();
+        if self.scale_now(&loads.view(), list.as_mut()).is_ok() {
+            slide(list.as_ref(), time, state, loads);
+        }
+    }
+
+    /// Completes a solution by the capacities of the instant.
+    #[inline(never)]
+    fn complete_scaled<F: Formulation<S>, C: Coordinates<M>>(
+        &self,
+        setting: &Setting<'_, S, M, F, C>,
+        complete: Complete<'_, '_, '_, S, M, F, C>,
+    ) -> Result<(), Fault> {
+        let mut list = self.list.clone();
+        setting.here(|scene| {
+            let view = View::new(scene.constants, scene.time, scene.bodies);
+            self.scale_now(&view, list.as_mut())
+        })?;
+        list.visit(complete).unwrap_or(Ok(()))
     }
 }
 
@@ -197,6 +250,7 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Heed
     const INTERACTS: bool = A::Tracked::COUNT > 0;
     const HEEDS: bool = A::HEEDS;
     const OF_RUN: bool = A::OF_RUN;
+    const SCALES: bool = A::SCALES;
 
     type Tracked = Nothing;
     type Own = Nothing;
@@ -207,7 +261,11 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Heed
     fn apply(&self, time: S, state: &M::State<S>, loads: &mut Loads<'_, S, M>) {
         self.forces.apply(time, state, loads);
         if A::Tracked::COUNT > 0 {
-            slide(self.list.as_ref(), time, state, loads);
+            if A::SCALES {
+                self.slide_scaled(time, state, loads);
+            } else {
+                slide(self.list.as_ref(), time, state, loads);
+            }
         }
     }
 
@@ -254,7 +312,24 @@ impl<S: Real, M: Mechanism, A: AppliedForces<S, M>> AppliedForces<S, M> for Heed
             solution,
             show,
         };
+        if A::SCALES {
+            return self.complete_scaled(setting, complete);
+        }
         self.list.visit(complete).unwrap_or(Ok(()))
+    }
+
+    #[inline(always)]
+    fn take_inputs(&mut self, parameters: &M::Parameters<S>) {
+        if A::SCALES {
+            self.inputs = M::inputs_of(parameters);
+        }
+    }
+
+    fn scale_now(&self, view: &View<'_, S, M>, list: &mut [Tracked<S, M>]) -> Result<(), Fault> {
+        for tracked in list.iter_mut() {
+            tracked.status.factor = S::one();
+        }
+        self.forces.scale(view, &self.inputs, list)
     }
 }
 

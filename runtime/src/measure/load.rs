@@ -39,6 +39,10 @@ pub trait AppliedForces<S: Scalar, M: Mechanism>: Sealed {
     #[doc(hidden)]
     const OF_RUN: bool = false;
 
+    /// Whether functions scale the capacities of interactions.
+    #[doc(hidden)]
+    const SCALES: bool = false;
+
     /// The interactions of a run with these forces.
     #[doc(hidden)]
     type Tracked: Several<Tracked<S, M>>;
@@ -94,6 +98,42 @@ pub trait AppliedForces<S: Scalar, M: Mechanism>: Sealed {
     where
         S: Real,
     {
+    }
+
+    /// Takes other parameters and inputs, for functions that scale capacities.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn take_inputs(&mut self, _parameters: &M::Parameters<S>) {}
+
+    /// Scales capacities, by these inputs.
+    ///
+    /// # Errors
+    /// A factor that is not acceptable, a handle of another list.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn scale(
+        &self,
+        _view: &View<'_, S, M>,
+        _inputs: &M::Inputs<S>,
+        _list: &mut [Tracked<S, M>],
+    ) -> Result<(), Fault>
+    where
+        S: Real,
+    {
+        Ok(())
+    }
+
+    /// Scales capacities, by the inputs that were taken last.
+    ///
+    /// # Errors
+    /// As [`AppliedForces::scale`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn scale_now(&self, _view: &View<'_, S, M>, _list: &mut [Tracked<S, M>]) -> Result<(), Fault>
+    where
+        S: Real,
+    {
+        Ok(())
     }
 
     /// Completes a solution by the efforts of the interactions in their modes, and shows these
@@ -164,6 +204,7 @@ macro_rules! forces_of_a_run {
             const INTERACTS: bool = A::INTERACTS;
             const HEEDS: bool = A::HEEDS;
             const OF_RUN: bool = true;
+            const SCALES: bool = A::SCALES;
 
             type Tracked = A::Tracked;
             type Own = A::Own;
@@ -193,6 +234,17 @@ macro_rules! forces_of_a_run {
                 forces
             }
 
+            fn scale(
+                &$this,
+                view: &View<'_, S, M>,
+                inputs: &M::Inputs<S>,
+                list: &mut [Tracked<S, M>],
+            ) -> Result<(), Fault>
+            where
+                S: Real,
+            {
+                A::scale($forces, view, inputs, list)
+            }
         }
     };
 }

@@ -13,6 +13,7 @@ pub(crate) mod load;
 pub(crate) mod named_state;
 mod points;
 pub(crate) mod reaction;
+pub(crate) mod scaled;
 #[cfg(feature = "mint")]
 mod to_mint;
 pub(crate) mod unwrapped;
@@ -27,6 +28,7 @@ pub use interacting::{Heeding, Interacting, Unlimited};
 pub use load::{AppliedForces, ForceLaw, NoForces};
 #[cfg(feature = "serde")]
 pub use named_state::NamedState;
+pub use scaled::ScaledCapacity;
 pub use unwrapped::UnwrappedAngle;
 pub use view::OwnedView;
 pub use viewed::Viewed;

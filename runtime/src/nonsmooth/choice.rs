@@ -85,6 +85,10 @@ where
         solution = capacities.solved(setting, &mut problem, &sliding)?;
     }
     let strength = strength_of(&problem, &solution, &roots);
+    let sizes = loads.as_ref().map(|loads| loads.sizes(&solution.efforts));
+    for (index, tracked) in list.iter_mut().enumerate() {
+        tracked.status.exerted.capacity = tracked.capacity(sizes.map(|sizes| sizes[index]));
+    }
     if let Some(loads) = &loads {
         let holds = solution.places.map(|place| place == Place::Inside);
         let slides = sliding.map(|sign| sign.is_some());
@@ -92,9 +96,6 @@ where
             return Err(Fault::Mode(ModeFault::LoadNotUnique {
                 joint: list.get(index).map_or("", |first| first.interaction.name()),
             }));
-        }
-        for (tracked, load) in list.iter_mut().zip(loads.sizes(&solution.efforts)) {
-            tracked.status.exerted.capacity = tracked.capacity(Some(load));
         }
     }
     for (index, tracked) in list.iter_mut().enumerate() {

@@ -177,11 +177,16 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         self.slips_by_load() || sticks && self.bearing().is_some()
     }
 
-    /// The largest effort at rest by a load; that which was known last where there is none.
+    /// The largest effort at rest, by its load where it goes with one: that which was known last
+    /// where this is not known. Zero where there is none, as of a dog.
     pub(super) fn capacity(&self, load: Option<S>) -> S {
-        match (self.friction(), load) {
-            (Some(friction), Some(load)) if friction.bearing.is_some() => friction.at_rest() * load,
-            _ => self.status.exerted.capacity,
+        let Some(friction) = self.friction().filter(|of| of.at_rest().is_finite()) else {
+            return S::zero();
+        };
+        match (friction.bearing, load) {
+            (None, _) => friction.at_rest(),
+            (Some(_), Some(load)) => friction.at_rest() * load,
+            (Some(_), None) => self.status.exerted.capacity,
         }
     }
 }

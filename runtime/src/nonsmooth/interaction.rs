@@ -3,10 +3,9 @@
 use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 
-use crate::error::{Fault, ModeFault, StartFault};
 use crate::math::scalar::Real;
 use crate::mechanism::handle::JointHandle;
-use crate::mechanism::kernels::{Mechanism, have_equations};
+use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::JointLimits;
 use crate::mechanism::point::Located;
 use crate::nonsmooth::bearing::{Bearing, HasBearing};
@@ -21,7 +20,7 @@ pub struct Interaction<S, M> {
     pub(crate) quantity: Quantity<S>,
     pub(crate) law: Law<S>,
     /// A setting that its kind does not have.
-    misplaced: Option<&'static str>,
+    pub(super) misplaced: Option<&'static str>,
     /// It is a limit of the description.
     pub(crate) is_described: bool,
     /// It is not heeded.
@@ -121,10 +120,68 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     }
 
     /// Two points whose distance is at least this one (m), without friction: two balls, with the
-    /// sum of their radii.
+    /// sum of their radii. [`Interaction::strut`] is the same.
     #[must_use]
     pub fn contact_of_balls(first: impl Located<M>, second: impl Located<M>, distance: S) -> Self {
-        Self::apart(Quantity::Distance(At::of(first), At::of(second)), distance)
+        Self::strut(first, second, distance)
+    }
+
+    /// A rope between two points: it does not stretch beyond its length (m), has no mass, and goes
+    /// slack where they come closer. Each point is a named point, of a body or of the ground, or a
+    /// centre of mass.
+    ///
+    /// Its effort is the tension (N) with a negative sign: it acts against a distance that grows.
+    /// A rope that is drawn tight gives an impulse, with [`Interaction::restitution`].
+    ///
+    /// ```
+    /// use holonom::prelude::*;
+    ///
+    /// /// A bob of 2 kg beside a nail, let go 0.6 m from it.
+    /// #[derive(Mechanism)]
+    /// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+    /// struct Bob {
+    ///     #[body(free, mass = 2.0, position = [0.6, 0.0, 0.0])]
+    ///     bob: Particle,
+    ///     #[point(on = ground, at = [0.0, 0.0, 0.0])]
+    ///     nail: Point,
+    /// }
+    ///
+    /// let (bob, h) = (Bob::default(), Bob::HANDLES);
+    /// let interactions = [Interaction::rope(h.nail, h.bob, 1.0)];
+    /// let [rope] = Interaction::handles(&interactions);
+    /// bob.simulation(StandardLagrange, DormandPrince::default())
+    ///     .interactions(interactions)
+    ///     .run(0.0..=2.0, every(0.01), |sample| -> Result<(), Fault> {
+    ///         assert!(sample.position(h.bob).norm() < 1.0 + 1e-9);
+    ///         assert!(sample.effort(rope)? <= 0.0);
+    ///         if let Some(impact) = sample.impact(rope)? {
+    ///             // It has fallen by 0.8 m, and loses what is along the rope.
+    ///             let rate = 0.8 * f64::sqrt(2.0 * 9.81 * 0.8);
+    ///             assert!((impact.impulse + 2.0 * rate).abs() < 1e-6);
+    ///         }
+    ///         Ok(())
+    ///     })?;
+    /// # Ok::<(), RunError<StateOf<Bob>, Fault>>(())
+    /// ```
+    #[must_use]
+    pub fn rope(first: impl Located<M>, second: impl Located<M>, length: S) -> Self {
+        Self::distance(first, second, [S::constant(f64::NEG_INFINITY), length])
+    }
+
+    /// A strut between two points, as of [`Interaction::rope`]: it does not become shorter than its
+    /// length (m), and does not pull. Its effort (N) is positive.
+    #[must_use]
+    pub fn strut(first: impl Located<M>, second: impl Located<M>, length: S) -> Self {
+        Self::distance(first, second, [length, S::constant(f64::INFINITY)])
+    }
+
+    /// Stops at the least and at the greatest distance (m) of two points, as of
+    /// [`Interaction::rope`]. Infinite where there is none: a least distance is positive, or
+    /// `f64::NEG_INFINITY`. Efforts (N) are positive where they push the points apart.
+    #[must_use]
+    pub fn distance(first: impl Located<M>, second: impl Located<M>, bounds: [S; 2]) -> Self {
+        let quantity = Quantity::Distance(At::of(first), At::of(second));
+        Self::new(quantity, Law::Limits(Limits::between(bounds)))
     }
 
     fn apart(quantity: Quantity<S>, least: S) -> Self {
@@ -133,7 +190,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     }
 
     /// The least distance (m) of a point from the plane of [`Interaction::contact`]; the radius (m)
-    /// at which a hinge with [`Interaction::friction_by_load`] rubs.
+    /// at which a hinge with [`Interaction::friction_by_load`] rubs, and the mean one of a thread.
     #[must_use]
     pub fn radius(mut self, radius: S) -> Self {
         match (&mut self.law, &self.quantity) {
@@ -174,12 +231,21 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     ///   axis.
     /// - Of a hinge it is `mu r |F|` (N m). It needs the [`Interaction::radius`] `r`. The force
     ///   along the axis does not count.
+    /// - Of a hinge with a [`Interaction::collar`] the force along the axis counts as well.
+    /// - Of a screw it is `mu r |N| / cos(l)` (N m). Here `r` is the mean [`Interaction::radius`]
+    ///   of its thread, `l` the lead angle, `tan(l) = pitch / (2 pi r)`, and `N` the force across the
+    ///   flank, which bears the thrust. So it locks itself where `mu > tan(l)`, and the moment that
+    ///   raises a load `F` is `F r tan(l + atan(mu))`. Of a flank that is inclined by an angle `b`
+    ///   take `mu / cos(b)`. Forces across the axis do not count.
     /// - Moments do not count, unless the bearing has a length: [`Interaction::guide`].
     ///
-    /// The load depends on the friction, so both are solved together. While it slides, an effort
-    /// that does not exist or is not unique is refused ([`ModeFault::NoUniqueFriction`], Painleve's
-    /// paradox). What can stick sticks. A joint whose reaction is not determined is refused
-    /// ([`ModeFault::LoadNotUnique`]).
+    /// The load depends on the friction, so both are solved together. What can stick sticks.
+    /// Refused are:
+    ///
+    /// - while it slides, an effort that does not exist or is not unique (Painleve's paradox):
+    ///   [`ModeFault::NoUniqueFriction`](crate::error::ModeFault::NoUniqueFriction);
+    /// - a joint whose reaction is not determined:
+    ///   [`ModeFault::LoadNotUnique`](crate::error::ModeFault::LoadNotUnique).
     ///
     /// ```
     /// # use holonom::prelude::*;
@@ -227,6 +293,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
             friction.bearing = Some(Bearing {
                 radius: None,
                 half_length: None,
+                collar: None,
+                is_thread: J::IS_THREAD,
             });
         })
     }
@@ -244,8 +312,26 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
             Law::Friction(Friction {
                 bearing: Some(bearing),
                 ..
-            }) => bearing.half_length = Some(half_length),
+            }) if !bearing.is_thread => bearing.half_length = Some(half_length),
             _ => self.misplaced = Some("guide"),
+        }
+        self
+    }
+
+    /// The mean radius (m) of a collar by which a hinge bears the force along its axis, with
+    /// [`Interaction::friction_by_load`]: its capacity has `mu r |F|` more. A hinge with a collar
+    /// alone needs no [`Interaction::radius`].
+    #[must_use]
+    pub fn collar(mut self, radius: S) -> Self {
+        match (&mut self.law, &self.quantity) {
+            (
+                Law::Friction(Friction {
+                    bearing: Some(bearing),
+                    ..
+                }),
+                Quantity::Joint(JointReading::Angle(_)),
+            ) if !bearing.is_thread => bearing.collar = Some(radius),
+            _ => self.misplaced = Some("collar"),
         }
         self
     }
@@ -337,71 +423,5 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// The name of the joint or the point that it is told by.
     pub(crate) fn name(&self) -> &'static str {
         self.quantity.name::<M>()
-    }
-
-    fn refused(&self, setting: &'static str, value: S) -> Result<(), Fault> {
-        Err(Fault::Start(StartFault::InteractionSetting {
-            joint: self.name(),
-            setting,
-            value: value.to_f64(),
-        }))
-    }
-
-    /// Refuses settings of friction by load, and a joint whose load is not determined.
-    fn check_bearing(&self, friction: &Friction<S>, bearing: &Bearing<S>) -> Result<(), Fault> {
-        have_equations::<M>()?;
-        let joint = self.name();
-        let refuse = |setting, value| self.refused(setting, value);
-        let Quantity::Joint(reading) = self.quantity else {
-            return Err(Fault::Mode(ModeFault::LoadNotUnique { joint }));
-        };
-        let info = M::REPORT.joints.get(reading.joint());
-        if info.is_none_or(|info| !info.undetermined.is_empty()) {
-            return Err(Fault::Mode(ModeFault::LoadNotUnique { joint }));
-        }
-        if !friction.at_rest().is_finite() {
-            return refuse("coefficient", friction.at_rest());
-        }
-        let is_length = |length: S| length > S::zero() && length.is_finite();
-        let turns = matches!(reading, JointReading::Angle(_));
-        let radius = bearing.radius.unwrap_or(S::zero());
-        if turns && !is_length(radius) {
-            return refuse("radius", radius);
-        }
-        match bearing.half_length {
-            Some(half_length) if !is_length(half_length) => refuse("guide", half_length),
-            _ => Ok(()),
-        }
-    }
-
-    /// Refuses settings that are not acceptable.
-    pub(crate) fn check(&self) -> Result<(), Fault> {
-        let joint = self.name();
-        let refuse = |setting, value| self.refused(setting, value);
-        if let Some(setting) = self.misplaced {
-            return Err(Fault::Start(StartFault::MisplacedSetting {
-                joint,
-                setting,
-            }));
-        }
-        if let Quantity::Gap(_, plane) = self.quantity
-            && !plane.is_finite()
-        {
-            return refuse("normal", S::zero());
-        }
-        if let Err((setting, value)) = self.law.check() {
-            return refuse(setting, value);
-        }
-        if let Law::Friction(friction) = &self.law {
-            if let Some(bearing) = &friction.bearing {
-                self.check_bearing(friction, bearing)?;
-            }
-            if let Quantity::Difference(_, _, ratio) = self.quantity
-                && !ratio.is_finite()
-            {
-                return refuse("ratio", ratio);
-            }
-        }
-        Ok(())
     }
 }

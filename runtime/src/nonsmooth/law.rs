@@ -194,6 +194,15 @@ impl<S: Real> Friction<S> {
         }
     }
 
+    /// With all of its capacities times a factor.
+    pub(crate) fn scaled(self, factor: S) -> Self {
+        Self {
+            capacity: factor * self.capacity,
+            stiction: self.stiction.map(|stiction| factor * stiction),
+            ..self
+        }
+    }
+
     /// The largest effort while it sticks.
     pub(crate) fn at_rest(&self) -> S {
         self.stiction.unwrap_or(self.capacity)

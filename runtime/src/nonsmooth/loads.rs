@@ -61,7 +61,7 @@ impl<S: Real, const K: usize> BearingLoads<S, K> {
                 if !tracked.status.is_engaged {
                     return None;
                 }
-                bearing.placed(&tracked.interaction.quantity, scene)
+                bearing.placed(&tracked.interaction.quantity, scene, jacobian.as_slice())
             });
             let read = |multipliers: &M::Multipliers<S>| {
                 placed.each_ref().map(|placed| match placed {
@@ -101,6 +101,10 @@ impl<S: Real, const K: usize> BearingLoads<S, K> {
                 };
                 for (row, ends) in loads.by_effort.iter_mut().zip(column) {
                     row[effort] = ends;
+                }
+                if let Some(placed) = &placed[effort] {
+                    let own = &mut loads.by_effort[effort][effort];
+                    add(S::one(), &placed.by_itself(), own);
                 }
             }
             Ok(loads)
@@ -201,13 +205,12 @@ where
 }
 
 pub(super) fn zeros<S: Real>() -> Ends<S> {
-    [[S::zero(); 3]; 2]
+    [[S::zero(); 3]; 3]
 }
 
-/// The sizes of both together.
+/// The sizes of all together.
 pub(super) fn size<S: Real>(ends: &Ends<S>) -> S {
-    let [a, b] = ends;
-    norm(a) + norm(b)
+    ends.iter().fold(S::zero(), |sum, end| sum + norm(end))
 }
 
 /// `y = y + factor x`.

@@ -11,8 +11,8 @@
 //!
 //! Within a step the modes are fixed (`efforts.rs`). Between steps `switch.rs` finds impulses, then
 //! `choice.rs` modes. All of them ask `law.rs` what efforts and impulses are possible.
-//! `interaction.rs` is what a user writes, `handle.rs` what it is called by, `status.rs` what a run
-//! knows of it.
+//! `interaction.rs` is what a user writes, and `checked.rs` refuses settings of it. `handle.rs` is
+//! what it is called by, `status.rs` what a run knows of it.
 //!
 //! `described.rs` has the limits of a description. `remembered.rs` hands their statuses to
 //! checkpoints.
@@ -25,6 +25,7 @@
 pub(crate) mod bearing;
 mod box_problem;
 mod capacities;
+mod checked;
 mod choice;
 pub(crate) mod columns;
 pub(crate) mod described;

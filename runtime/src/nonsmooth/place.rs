@@ -146,6 +146,9 @@ impl At {
     }
 }
 
+/// Points that are closer than this (m) have no direction from one to the other.
+const NO_DIRECTION: f64 = 1e-30;
+
 /// A point or a direction, and its rate (global).
 type Moving<S> = [[S; 3]; 2];
 
@@ -193,12 +196,14 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
         ]
     }
 
-    /// The distance (m) of two points, and its rate.
+    /// The distance (m) of two points, and its rate; no rate where they meet.
     pub(crate) fn distance(&self, a: At, b: At) -> [S; 2] {
         let ([a, a_rate], [b, b_rate]) = (self.at(a), self.at(b));
         let (way, faster) = (minus(&a, &b), minus(&a_rate, &b_rate));
         let length = dot(&way, &way).sqrt();
-        [length, dot(&way, &faster) * length.reciprocal()]
+        let least = S::constant(NO_DIRECTION);
+        let reciprocal = length.select(least, S::zero(), length.reciprocal());
+        [length, dot(&way, &faster) * reciprocal]
     }
 }
 

@@ -1,11 +1,12 @@
 //! Efforts of friction that slides, where its capacity goes with the efforts.
 //!
 //! With the loads affine in the efforts, and what is held eliminated, friction that slides has
-//! `x = c (|a1 + D1 x| + |a2 + D2 x|)`, with the coefficient `c` against the rate and the forces at
-//! both ends of its bearing. `G = |c| (|D1| + |D2|)` bounds what a change of efforts brings about.
-//! Where its spectral radius is below 1, the right side is a contraction and `x` is unique. Of one
-//! effort the bound is sharp: from 1 on the convex function `|c| (|a1 + D1 x| + |a2 + D2 x|) - |x|`
-//! has no zero on the side of `x`, or two, or touches it (Painleve's paradox).
+//! `x = c (|a1 + D1 x| + |a2 + D2 x| + ..)`. Here `c` is the coefficient against the rate, with the
+//! forces at both ends of its bearing and along it. `G = |c| (|D1| + |D2| + ..)` bounds what a
+//! change of efforts brings about. Where its spectral radius is below 1, the right side is a
+//! contraction and `x` is unique. Of one effort the bound is sharp: from 1 on the convex function
+//! `|c| (|a1 + D1 x| + ..) - |x|` has no zero on the side of `x`, or two, or touches it (Painleve's
+//! paradox).
 //!
 //! `I - G` has positive pivots exactly where the radius is below 1 (Berman and Plemmons,
 //! *Nonnegative Matrices in the Mathematical Sciences*, 1979, chapter 6). Then the Jacobians of all

@@ -5,7 +5,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::bearing::Bearing;
 use crate::nonsmooth::interaction::Interaction;
-use crate::nonsmooth::law::Law;
+use crate::nonsmooth::law::{Friction, Law};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
 
@@ -42,7 +42,7 @@ pub(crate) enum Next<S> {
 pub struct Exerted<S> {
     /// Its effort (N m, N) along its quantity, positive upwards.
     pub(crate) effort: S,
-    /// The largest effort (N m, N) while it sticks, where that goes with its load.
+    /// The largest effort (N m, N) while it sticks; zero where there is none.
     pub(crate) capacity: S,
 }
 
@@ -53,6 +53,8 @@ pub(crate) struct Status<S> {
     pub(crate) is_engaged: bool,
     /// A handler has engaged or released it.
     pub(crate) is_asked: bool,
+    /// What its capacity is times, at the instant that it is asked at.
+    pub(crate) factor: S,
     /// The value that is held.
     pub(crate) held: S,
     /// What it exerted at the last look into a step, or where its mode began.
@@ -125,6 +127,12 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         self.interaction.law.bearing()
     }
 
+    /// Its friction at the instant that it is asked at.
+    pub(super) fn friction(&self) -> Option<Friction<S>> {
+        let friction = self.interaction.law.friction()?;
+        Some(friction.scaled(self.status.factor))
+    }
+
     /// The mode.
     pub(crate) fn mode(&self) -> InteractionMode {
         self.status.mode
@@ -153,11 +161,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             (InteractionMode::AtLower, _) => effort,
             (InteractionMode::AtUpper, _) => -effort,
             (InteractionMode::Sticking, Law::Friction(friction)) => {
-                let [lower, upper] = match friction.bearing {
-                    Some(_) => [-capacity, capacity],
-                    None => friction.bounds(),
-                };
-                (effort - lower).min(upper - effort)
+                if friction.at_rest().is_finite() {
+                    (effort + capacity).min(capacity - effort)
+                } else {
+                    never
+                }
             }
             (mode, _) => match mode.sliding::<S>() {
                 Some(sign) => sign * quantity.rate(scene),
@@ -182,6 +190,7 @@ impl<S: Real> Status<S> {
             mode: InteractionMode::Free,
             is_engaged: true,
             is_asked: false,
+            factor: S::one(),
             held: S::zero(),
             exerted: Exerted::nothing(),
             share: S::zero(),

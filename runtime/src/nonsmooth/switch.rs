@@ -54,7 +54,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// What comes after an instant: of a quantity on a limit or engaged, that rests there or goes
     /// on. Nothing of one that is held without a bound and does not rest.
     fn next(&self, one: &Struck<S>) -> Option<Next<S>> {
-        let stops = |friction: &Friction<S>| friction.impulses().is_some();
+        let stops = |friction: Friction<S>| friction.impulses().is_some();
         if self.friction().is_some_and(stops) && one.is_engaged && !one.rests {
             return None;
         }
@@ -72,10 +72,6 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         self.status.before = self.status.mode;
         self.status.next = next;
         self.status.mode = InteractionMode::Free;
-    }
-
-    pub(super) fn friction(&self) -> Option<&Friction<S>> {
-        self.interaction.law.friction()
     }
 
     /// The limit that the quantity is on, by its sign; the fault where it is beyond.

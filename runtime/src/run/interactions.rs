@@ -5,8 +5,11 @@ use crate::integrate::Method;
 use crate::math::scalar::Real;
 use crate::measure::interacting::{Interacting, Unlimited};
 use crate::measure::load::AppliedForces as _;
+use crate::measure::scaled::ScaledCapacity;
+use crate::measure::view::View;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::described::Beside;
+use crate::nonsmooth::handle::InteractionHandle;
 use crate::nonsmooth::interaction::Interaction;
 use crate::run::simulation::Simulation;
 
@@ -73,6 +76,68 @@ where
             )
         };
         self.exchange(|forces| Interacting::new(forces, M::beside(interactions)))
+    }
+
+    /// Multiplies the capacity of dry friction, of a brake or of a clutch by a function of the
+    /// motion and of the inputs, and the capacity of its [`Interaction::stiction`] likewise. Of
+    /// friction by load it multiplies the coefficients. It is said behind
+    /// [`Simulation::interactions`]. Several functions of one interaction are multiplied.
+    ///
+    /// Modes follow the capacity of the same instant: what sticks slides from where the capacity
+    /// falls below the effort. The function is called at trial states and may remember nothing, as
+    /// that of [`Simulation::forces`]. Say by [`Simulation::breaks`] where it jumps or bends in
+    /// time. Inputs may jump: a controller or a handler begins a step.
+    ///
+    /// ```
+    /// # use holonom::prelude::*;
+    /// /// A wheel of 0.5 kg m^2 at 20 rad/s, with the pressure in its brake (bar).
+    /// #[derive(Mechanism)]
+    /// #[mechanism(coordinates = "joints")]
+    /// struct Wheel {
+    ///     #[input]
+    ///     pressure: f64,
+    ///     #[body(mass = 8.0, inertia = [0.5, 0.3, 0.3], angular_velocity = [20.0, 0.0, 0.0])]
+    ///     wheel: Body,
+    ///     #[joint(between = [ground, wheel], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    ///     axle: Revolute,
+    /// }
+    /// let (wheel, h) = (Wheel::default(), Wheel::HANDLES);
+    /// let interactions = [Interaction::brake(h.axle.angle(), 2.0)]; // N m for each bar
+    /// let [brake] = Interaction::handles(&interactions);
+    /// let report = wheel
+    ///     .simulation(StandardLagrange, DormandPrince::default())
+    ///     .interactions(interactions)
+    ///     .capacity_factor(brake, |_, inputs| inputs.pressure)
+    ///     .every_period(0.1, |sample, inputs| inputs.pressure = 10.0 * sample.time())
+    ///     .run(0.0..=1.0, every(0.1), |_| ())?;
+    /// // 2 N m times 0, 1, .. 9 bar, for 0.1 s each
+    /// let rate = wheel.view(1.0, &report.state)?.angle_rate(h.axle);
+    /// assert!((rate - (20.0 - 0.1 * 45.0 * 2.0 / 0.5)).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors of the run
+    /// - [`ModeFault::CapacityFactor`](crate::error::ModeFault::CapacityFactor) where the factor is
+    ///   negative or not finite.
+    /// - [`StartFault::MisplacedSetting`](crate::error::StartFault::MisplacedSetting) of limits and
+    ///   of dogs.
+    /// - [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction).
+    #[must_use]
+    pub fn capacity_factor<G>(
+        self,
+        interaction: InteractionHandle<M>,
+        factor: G,
+    ) -> Simulation<'a, WithForces<P, ScaledCapacity<M, P::Forces, G>>, I, H>
+    where
+        G: Fn(&View<'_, S, M>, &M::Inputs<S>) -> S,
+    {
+        const {
+            assert!(
+                P::Forces::INTERACTS,
+                "`capacity_factor` is said behind `interactions`"
+            )
+        };
+        self.exchange(|forces| ScaledCapacity::new(forces, interaction, factor))
     }
 
     /// Passes the limits of the description, `#[joint(.., limits = [-1.0, 1.0])]`, as if there were

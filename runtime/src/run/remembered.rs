@@ -118,6 +118,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             if let Some(period) = happening.period() {
                 period.remember(memory);
             }
+            happening.remember(memory);
             Ok(())
         });
     }

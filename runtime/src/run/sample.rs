@@ -220,7 +220,8 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     /// The power (W) of the forces of the language that have no potential
     /// ([`View::power`]), and of the interactions: what changes the energy of a mechanism without
     /// drivers and without a force closure, besides impacts ([`Impact::lost_energy`]). One
-    /// evaluation where friction slides by its load; NaN where that cannot be done.
+    /// evaluation where friction slides by its load, or a function scales a capacity; NaN where
+    /// that cannot be done.
     #[must_use]
     pub fn power(&self) -> S {
         let list = self.dynamics.interactions();
@@ -230,7 +231,7 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
             bodies: self.state(),
         };
         let mut power = self.view.power();
-        if list.iter().any(Tracked::slips_by_load) {
+        if self.dynamics.scales_capacities() || list.iter().any(Tracked::slips_by_load) {
             let found = self.find_efforts(&mut |all| {
                 for (tracked, exerted) in list.iter().zip(all) {
                     power = tracked.power(exerted.effort, &scene) + power;

@@ -15,11 +15,13 @@ use crate::math::clock::Clock;
 use crate::math::scalar::Real;
 use crate::measure::interacting::{Heeding, Interacting, Unlimited};
 use crate::measure::load::{AppliedForces, ForceLaw, Loads, NoForces};
+use crate::measure::scaled::ScaledCapacity;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::JointCoordinates;
 use crate::mechanism::kernels::{InputsOf, Mechanism, Orientation};
 use crate::nonsmooth::described::Beside;
+use crate::nonsmooth::handle::InteractionHandle;
 use crate::nonsmooth::interaction::Interaction;
 
 /// A mechanism, a formulation and a one-step method, prepared: takes one step at a time.
@@ -210,6 +212,27 @@ impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
             )
         };
         self.exchange_forces(|forces| Interacting::new(forces, P::Mechanism::beside(interactions)))
+    }
+
+    /// Multiplies the capacity of dry friction, of a brake or of a clutch by a function of the
+    /// motion and of the inputs, see
+    /// [`Simulation::capacity_factor`](crate::Simulation::capacity_factor).
+    #[must_use]
+    pub fn capacity_factor<G>(
+        self,
+        interaction: InteractionHandle<P::Mechanism>,
+        factor: G,
+    ) -> Stepper<WithForces<P, ScaledCapacity<P::Mechanism, P::Forces, G>>, K>
+    where
+        G: Fn(&View<'_, P::Number, P::Mechanism>, &InputsOf<P::Mechanism, P::Number>) -> P::Number,
+    {
+        const {
+            assert!(
+                P::Forces::INTERACTS,
+                "`capacity_factor` is said behind `interactions`"
+            )
+        };
+        self.exchange_forces(|forces| ScaledCapacity::new(forces, interaction, factor))
     }
 
     /// Passes the limits of the description as if there were none, see

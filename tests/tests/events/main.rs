@@ -8,6 +8,7 @@ mod faults;
 mod handlers;
 mod led;
 mod order;
+mod relays;
 mod rough;
 mod single_steps;
 mod switches;

@@ -286,3 +286,37 @@ fn a_block_that_rubs_bounces_on_a_stop_until_it_rests() {
     bounces::<Relative>();
     bounces::<Absolute>();
 }
+
+/// A coefficient that wears off: it slips where `mu (1 - t/2)` falls below 0.75.
+fn wears<C: Coordinates<Incline>>() {
+    let (incline, h) = (Incline::default(), Incline::HANDLES);
+    let interactions = [Interaction::friction_by_load(h.slide, 1.0)];
+    let [friction] = Interaction::handles(&interactions);
+    let mut slid = None;
+    let report = Simulation::new(&incline, StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .interactions(interactions)
+        .capacity_factor(friction, |view, _| 1.0 - 0.5 * view.time())
+        .run(0.0..=1.5, every(0.1), |sample| {
+            if sample.mode(friction) != Ok(Mode::Sticking) {
+                let start = *slid.get_or_insert(sample.time());
+                let after = sample.time() - start;
+                // g (sin - cos (1 - t/2))
+                let rate = 0.25 * GRAVITY * COSINE * after * after;
+                let found = sample.displacement_rate(h.slide);
+                assert!((found - rate).abs() < 1e-9, "{found} {rate}");
+            }
+        })
+        .expect("it slips");
+    let start = slid.expect("it slips");
+    assert!(
+        (start - 0.5).abs() < 1e-9 && report.warnings().is_empty(),
+        "{start}"
+    );
+}
+
+#[test]
+fn a_coefficient_wears_off() {
+    wears::<Relative>();
+    wears::<Absolute>();
+}

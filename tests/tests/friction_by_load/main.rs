@@ -9,6 +9,7 @@ mod painleve;
 mod pendulum;
 mod reference;
 mod refused;
+mod screws;
 mod slides;
 mod spatial;
 

@@ -233,6 +233,76 @@ fn methods_with_a_memory_go_on() {
     goes_on_until::<_, Absolute>("Radau", RadauIIA::default(), 0.31);
 }
 
+/// A clutch that closes with its input, the time and a reading, of which nothing is remembered.
+fn scaled_goes_on<C: Coordinates<Mill>>(
+    from: Option<&Checkpoint<Mill>>,
+) -> (RunReport<f64, Mill>, Shown, Vec<Checkpoint<Mill>>) {
+    let (mill, h) = (Mill::default(), Mill::HANDLES);
+    let interactions = interactions(&mill, true);
+    let handles = Interaction::handles(&interactions);
+    let [_, clutch, bearing, .., pin] = handles;
+    let (mut shown, mut kept) = (Shown::new(), Vec::new());
+    let mut simulation = Simulation::new(&mill, StandardLagrange, DormandPrince::default())
+        .coordinates::<C>()
+        .interactions(interactions)
+        .capacity_factor(clutch, |view, inputs| {
+            inputs.voltage / 20.0 * (5.0 - 20.0 * view.time()).clamp(0.1, 4.0)
+        })
+        .capacity_factor(bearing, |view, _| 1.0 + 0.5 * view.angle(h.shaft).sin())
+        .capacity_factor(pin, |view, _| 1.0 + view.angle_rate(h.pin).abs().min(1.0))
+        .every_period(0.05, |sample, inputs| {
+            inputs.voltage = 20.0 - 10.0 * sample.time()
+        })
+        .on(
+            "engage",
+            Crossing::Rising,
+            |sample| sample.time() - 0.06,
+            |event| event.engage(clutch),
+        )
+        .checkpoints(1, |checkpoint| kept.push(checkpoint.clone()));
+    let observe = |sample: &Sample<'_, f64, Mill>| -> Result<(), RunFault> {
+        let mut told = [(InteractionMode::Free, 0.0, None); INTERACTIONS];
+        for (of, told) in handles.into_iter().zip(&mut told) {
+            *told = (sample.mode(of)?, sample.effort(of)?, sample.impact(of)?);
+        }
+        assert!(sample.power().is_finite());
+        shown.push((sample.time(), *sample.state(), told));
+        Ok(())
+    };
+    let report = match from {
+        None => simulation.run(0.0..=SHORT, every(0.03), observe),
+        Some(checkpoint) => simulation.resume(checkpoint, observe),
+    };
+    let report = report.expect("it runs");
+    drop(simulation);
+    (report, shown, kept)
+}
+
+fn scaled_capacities_go_on<C: Coordinates<Mill>>() {
+    let (report, shown, kept) = scaled_goes_on::<C>(None);
+    let modes = shown.iter().map(|(.., told)| told[1].0);
+    let modes: Vec<InteractionMode> = modes.collect();
+    for mode in [
+        InteractionMode::Released,
+        InteractionMode::SlidingUp,
+        InteractionMode::Sticking,
+    ] {
+        assert!(modes.contains(&mode), "{mode:?}");
+    }
+    let last = kept.len() - 1;
+    for place in [1, last / 2, last - 1] {
+        let (resumed, tail, rest) = scaled_goes_on::<C>(Some(&kept[place]));
+        assert_eq!(resumed, report, "{place} of {last}");
+        assert!(shown.ends_with(&tail) && rest[..] == kept[place + 1..]);
+    }
+}
+
+#[test]
+fn scaled_capacities_go_on_to_the_last_bit() {
+    scaled_capacities_go_on::<Relative>();
+    scaled_capacities_go_on::<Absolute>();
+}
+
 /// Nothing is changed by checkpoints, nor by what is read of a run: its checkpoints are the same.
 #[test]
 fn checkpoints_and_readings_change_nothing() {

@@ -66,7 +66,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         self.begin_interactions()?;
         self.stand(*time, state, true)?;
         let before = self.watched_energies(*time, state);
-        let done = self.call(Phase::Controllers, *time, state)?;
+        let mut done = self.call(Phase::Relays, *time, state)?;
+        done.and(self.call(Phase::Controllers, *time, state)?);
         self.stand(*time, state, true)?;
         if self.switch(*time, state, true)? {
             self.stand(*time, state, true)?;
@@ -98,8 +99,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     }
 
     /// The phases of an instant, in their order: impulses and modes of interactions, handlers,
-    /// controllers, signs. Laws that have switched are turned before. After each phase that has
-    /// changed anything, sides of laws and modes of interactions are found anew.
+    /// relays, controllers, signs. Laws that have switched are turned before. After each phase that
+    /// has changed anything, sides of laws and modes of interactions are found anew.
     pub(crate) fn act(
         &mut self,
         is_found: bool,
@@ -129,6 +130,12 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             self.follow(&handled, time, state)?;
             done.moved |= handled.moved;
             done.stops = handled.stops;
+        }
+        if !done.stops {
+            let relayed = self.call(Phase::Relays, time, state)?;
+            self.follow(&relayed, time, state)?;
+            done.moved |= relayed.moved;
+            done.stops = relayed.stops;
         }
         if !done.stops && time < self.course.hybrid.end {
             let controlled = self.call(Phase::Controllers, time, state)?;
@@ -233,8 +240,11 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let before = self.watched_energies(time, state);
         let hybrid = &mut self.course.hybrid;
         let done = invoke(self.march, hybrid, ("change", handler), time, state)?;
-        let done = self.with_asked(done);
+        let mut done = self.with_asked(done);
         self.follow(&done, time, state)?;
+        let relayed = self.call(Phase::Relays, time, state)?;
+        self.follow(&relayed, time, state)?;
+        done.and(relayed);
         self.course.hybrid.is_fresh = true;
         self.read_all(time, state, &mut |watch, reading| {
             if done.moved {

@@ -4,6 +4,7 @@ use core::ops::ControlFlow;
 
 use crate::error::setting::positive;
 use crate::error::{Fault, StepFault};
+use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 #[cfg(feature = "std")]
@@ -24,6 +25,8 @@ pub enum Phase<S> {
     /// Handlers of the events that pass their zeros at a time (s): at the instant, or by its
     /// round-off before it.
     Handlers(S),
+    /// Relays that begin, or that a handler has taken past their next threshold.
+    Relays,
     /// Controllers, behind all handlers.
     Controllers,
 }
@@ -31,6 +34,14 @@ pub enum Phase<S> {
 /// Something that happens in a run.
 #[doc(hidden)]
 pub trait Happening<S: Real, M: Mechanism> {
+    /// Checks its setting at the start of a run, and forgets the run before.
+    ///
+    /// # Errors
+    /// Of a setting that is not acceptable.
+    fn begin(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+
     /// Whether it is called in a phase of an instant (s), and by what name. It counts the call.
     fn due(&mut self, _time: S, _phase: Phase<S>) -> Option<&'static str> {
         None
@@ -73,6 +84,9 @@ pub trait Happening<S: Real, M: Mechanism> {
     fn read(&self, _sample: &Sample<'_, S, M>) -> S {
         S::zero()
     }
+
+    /// Hands over what it remembers between two steps, besides its watch and its period.
+    fn remember(&mut self, _memory: &mut Memory<'_, S>) {}
 
     /// Calls the handler or the controller, where it is due.
     ///
@@ -232,6 +246,7 @@ impl<S: Real, M: Mechanism> Hybrid<S, M> {
     ) -> Result<Self, Fault> {
         let (mut watches, mut records, mut keeps) = (false, false, None);
         list.each(&mut |happening| {
+            happening.begin()?;
             if let Some(steps) = happening.steps_to_keep() {
                 positive("steps between checkpoints", steps as f64)?;
                 keeps = Some(keeps.map_or(steps, |other| common(steps, other)));

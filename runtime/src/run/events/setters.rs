@@ -12,6 +12,7 @@ use crate::mechanism::kernels::InputsOf;
 use crate::run::checkpoint::{Checkpoint, keeper::Keeping};
 use crate::run::events::context::Event;
 use crate::run::events::list::{Controlled, Handled};
+use crate::run::events::relay::Relay;
 use crate::run::output::{IntoFlow, Reporting};
 use crate::run::report::RunResult;
 use crate::run::runs::Runs;
@@ -113,6 +114,64 @@ where
             reading,
             handler,
         })
+    }
+
+    /// A relay with hysteresis, by two thresholds of a reading. It calls a handler with `true`
+    /// where the reading rises to the upper one, and with `false` where it then falls to the lower
+    /// one. Between them it stays as it is.
+    ///
+    /// The handler is called at the start as well, with `true` only for a reading at the upper
+    /// threshold or above. So inputs that it sets are right from the start on. Where another
+    /// handler takes the reading past the threshold that is next, it is called at the same instant.
+    ///
+    /// ```
+    /// use holonom::prelude::*;
+    ///
+    /// /// A boiler of 4 kJ/K that loses 40 W/K to a room at 15 degrees, and its pump.
+    /// #[derive(Mechanism)]
+    /// #[mechanism(coordinates = "joints")]
+    /// struct Boiler {
+    ///     #[input]
+    ///     heat: f64,
+    ///     #[state(rate = (heat - 40.0 * (temperature - 15.0)) / 4000.0, start = 15.0)]
+    ///     temperature: f64,
+    ///     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1])]
+    ///     pump: Body,
+    ///     #[joint(between = [ground, pump], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    ///     shaft: Revolute,
+    /// }
+    ///
+    /// let (boiler, h) = (Boiler::default(), Boiler::HANDLES);
+    /// boiler
+    ///     .simulation(StandardLagrange, DormandPrince::default())
+    ///     .relay("thermostat", [55.0, 60.0], |s| s.state_value(h.temperature), |event, is_hot| {
+    ///         event.inputs_mut().heat = if is_hot { 0.0 } else { 4e3 };
+    ///     })
+    ///     .run(0.0..=600.0, every(1.0), |sample| {
+    ///         let temperature = sample.state_value(h.temperature);
+    ///         assert!(temperature < 60.0 + 1e-6);
+    ///         assert!(temperature > 55.0 - 1e-6 || sample.time() < 60.0);
+    ///     })?;
+    /// # Ok::<(), SimulationError<StateOf<Boiler>>>(())
+    /// ```
+    ///
+    /// # Errors of the run
+    /// [`StartFault::Setting`](crate::error::StartFault::Setting) of thresholds that are not finite
+    /// and in order, and those of [`Simulation::on`].
+    #[must_use]
+    pub fn relay<G, K, R>(
+        self,
+        name: &'static str,
+        thresholds: [P::Number; 2],
+        reading: G,
+        handler: K,
+    ) -> With<'a, P, I, H, Relay<P::Number, G, K>>
+    where
+        G: Fn(&Sample<'_, P::Number, P::Mechanism>) -> P::Number,
+        K: FnMut(&mut Event<'_, P::Number, P::Mechanism>, bool) -> R,
+        R: Handling,
+    {
+        self.and(Relay::new(name, thresholds, reading, handler))
     }
 
     /// Calls a controller at `t0 + k dt` (s), `t0` included and the end of the run not. The inputs

@@ -1,0 +1,95 @@
+//! What is refused of an interaction, by the name of its joint or point.
+
+use crate::error::{Fault, ModeFault, StartFault};
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::{Mechanism, have_equations};
+use crate::nonsmooth::bearing::Bearing;
+use crate::nonsmooth::interaction::Interaction;
+use crate::nonsmooth::law::{Friction, Law, Limits};
+use crate::nonsmooth::quantity::{JointReading, Quantity};
+
+impl<S: Real, M: Mechanism> Interaction<S, M> {
+    fn refused(&self, setting: &'static str, value: S) -> Result<(), Fault> {
+        Err(Fault::Start(StartFault::InteractionSetting {
+            joint: self.name(),
+            setting,
+            value: value.to_f64(),
+        }))
+    }
+
+    /// Refuses settings of friction by load, and a joint whose load is not determined.
+    fn check_bearing(&self, friction: &Friction<S>, bearing: &Bearing<S>) -> Result<(), Fault> {
+        have_equations::<M>()?;
+        let joint = self.name();
+        let refuse = |setting, value| self.refused(setting, value);
+        let Quantity::Joint(reading) = self.quantity else {
+            return Err(Fault::Mode(ModeFault::LoadNotUnique { joint }));
+        };
+        let info = M::REPORT.joints.get(reading.joint());
+        if info.is_none_or(|info| !info.undetermined.is_empty()) {
+            return Err(Fault::Mode(ModeFault::LoadNotUnique { joint }));
+        }
+        if !friction.at_rest().is_finite() {
+            return refuse("coefficient", friction.at_rest());
+        }
+        let is_length = |length: S| length > S::zero() && length.is_finite();
+        let turns = matches!(reading, JointReading::Angle(_));
+        let radius = bearing.radius.unwrap_or(S::zero());
+        let needs_radius = bearing.radius.is_some() || bearing.collar.is_none();
+        if turns && needs_radius && !is_length(radius) {
+            return refuse("radius", radius);
+        }
+        let lengths = [("guide", bearing.half_length), ("collar", bearing.collar)];
+        for (setting, length) in lengths {
+            if let Some(length) = length.filter(|&length| !is_length(length)) {
+                return refuse(setting, length);
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses distances that have no direction.
+    fn check_distances(&self, limits: &Limits<S>) -> Result<(), Fault> {
+        let has_direction = |bound: &S| !bound.is_finite() || *bound > S::zero();
+        let [lower, _] = limits.bounds;
+        match limits.bounds.iter().find(|bound| !has_direction(bound)) {
+            Some(bound) if *bound == lower => self.refused("least distance", lower),
+            Some(bound) => self.refused("greatest distance", *bound),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses settings that are not acceptable.
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        let joint = self.name();
+        let refuse = |setting, value| self.refused(setting, value);
+        if let Some(setting) = self.misplaced {
+            return Err(Fault::Start(StartFault::MisplacedSetting {
+                joint,
+                setting,
+            }));
+        }
+        if let Quantity::Gap(_, plane) = self.quantity
+            && !plane.is_finite()
+        {
+            return refuse("normal", S::zero());
+        }
+        if let (Quantity::Distance(..), Some(limits)) = (self.quantity, self.law.limits()) {
+            self.check_distances(limits)?;
+        }
+        if let Err((setting, value)) = self.law.check() {
+            return refuse(setting, value);
+        }
+        if let Law::Friction(friction) = &self.law {
+            if let Some(bearing) = &friction.bearing {
+                self.check_bearing(friction, bearing)?;
+            }
+            if let Quantity::Difference(_, _, ratio) = self.quantity
+                && !ratio.is_finite()
+            {
+                return refuse("ratio", ratio);
+            }
+        }
+        Ok(())
+    }
+}
