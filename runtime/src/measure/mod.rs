@@ -9,6 +9,7 @@ mod angle_rates;
 pub(crate) mod angles;
 pub(crate) mod interacting;
 pub(crate) mod load;
+pub(crate) mod momentum;
 #[cfg(feature = "serde")]
 pub(crate) mod named_state;
 mod points;

@@ -8,6 +8,7 @@
 pub(crate) mod absolute;
 pub(crate) mod at;
 pub(crate) mod blocks;
+pub(crate) mod bodies;
 pub(crate) mod body;
 pub(crate) mod by_rows;
 pub(crate) mod coordinates;
@@ -29,6 +30,7 @@ pub(crate) mod table;
 pub(crate) mod terms;
 pub(crate) mod turns;
 
+pub use bodies::Bodies;
 pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
 };

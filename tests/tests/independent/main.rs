@@ -11,6 +11,7 @@ mod found;
 mod identification;
 mod linear;
 mod loops;
+mod momenta;
 mod reference;
 mod regressor;
 mod regulator;
