@@ -9,8 +9,16 @@ use crate::model::{ElementKind, Function, ParameterKind, Term, Turn};
 use crate::syntax::ungroup;
 
 /// The functions of vectors and of states, beside those of numbers.
-const FUNCTIONS: [&str; 8] = [
-    "dot", "cross", "squared", "length", "angle", "fixed", "initial", "rate",
+const FUNCTIONS: [&str; 9] = [
+    "dot",
+    "cross",
+    "squared",
+    "length",
+    "angle",
+    "fixed",
+    "initial",
+    "rate",
+    "angular_velocity",
 ];
 
 impl Context<'_> {
@@ -51,20 +59,7 @@ impl Context<'_> {
                 Some(squared)
             }
             "angle" => self.angle(call, faults),
-            "fixed" => {
-                let [body, vector] = self.arguments::<2>(call, "a body and a vector", faults)?;
-                let (body, vector) = (
-                    self.body(body, faults),
-                    self.of_vectors(&name, vector, faults),
-                );
-                let (body, vector) = (body?, vector?);
-                self.is_of_configuration(call, &vector, faults)?;
-                let onto = |term| Term::Onto(body, Box::new(term));
-                Some(Shaped {
-                    vector: true,
-                    terms: vector.terms.into_iter().map(onto).collect(),
-                })
-            }
+            "fixed" => self.fixed(call, faults),
             "initial" => {
                 let [argument] = self.arguments::<1>(call, "1 number", faults)?;
                 let argument = self.expression(argument, faults)?;
@@ -82,26 +77,8 @@ impl Context<'_> {
                     terms: argument.terms.into_iter().map(initial).collect(),
                 })
             }
-            "rate" => {
-                let [argument] = self.arguments::<1>(call, "1 number", faults)?;
-                let argument = self.argument(&name, argument, faults);
-                if self.kind == ElementKind::Joint {
-                    faults.at(
-                        call,
-                        "the equations of a joint speak of positions and of the time; `rate` belongs in `force!`",
-                    );
-                    return None;
-                }
-                let argument = argument?;
-                if argument.has(|term| matches!(term, Term::Rate(_))) {
-                    faults.at(
-                        call,
-                        "there is no rate of a rate: accelerations are what is solved for",
-                    );
-                    return None;
-                }
-                Some(Shaped::scalar(Term::Rate(Box::new(argument))))
-            }
+            "rate" => self.rate(call, faults),
+            "angular_velocity" => self.angular_velocity(call, faults),
             _ => {
                 let laws = self
                     .parameters
@@ -190,6 +167,64 @@ impl Context<'_> {
         Some(Shaped::scalar(Term::Angle(turn)))
     }
 
+    fn fixed(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
+        let [body, vector] = self.arguments::<2>(call, "a body and a vector", faults)?;
+        let (body, vector) = (
+            self.body(body, faults),
+            self.of_vectors("fixed", vector, faults),
+        );
+        let (body, vector) = (body?, vector?);
+        self.is_of_configuration(call, &vector, faults)?;
+        let onto = |term| Term::Onto(body, Box::new(term));
+        Some(Shaped {
+            vector: true,
+            terms: vector.terms.into_iter().map(onto).collect(),
+        })
+    }
+
+    fn rate(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
+        let [argument] = self.arguments::<1>(call, "1 number", faults)?;
+        let argument = self.argument("rate", argument, faults);
+        if self.kind == ElementKind::Joint {
+            faults.at(
+                call,
+                "the equations of a joint speak of positions and of the time; `rate` belongs in `force!`",
+            );
+            return None;
+        }
+        let argument = argument?;
+        if argument.has(Term::is_rate) {
+            faults.at(
+                call,
+                "there is no rate of a rate: accelerations are what is solved for",
+            );
+            return None;
+        }
+        Some(Shaped::scalar(Term::Rate(Box::new(argument))))
+    }
+
+    fn angular_velocity(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
+        let [from, to] =
+            self.arguments::<2>(call, "two bodies, as in `angular_velocity(i, j)`", faults)?;
+        let (from, to) = (self.body(from, faults), self.body(to, faults));
+        if self.kind == ElementKind::Joint {
+            faults.at(
+                call,
+                "the equations of a joint speak of positions and of the time; `angular_velocity` belongs in `force!`",
+            );
+            return None;
+        }
+        let (from, to) = (from?, to?);
+        if from == to {
+            faults.at(
+                call,
+                "the angular velocity of a body against itself is zero",
+            );
+            return None;
+        }
+        Some(Shaped::vector(Term::Spin { from, to }))
+    }
+
     fn law(&self, call: &ExprCall, parameter: usize, faults: &mut Faults) -> Option<Shaped> {
         let names = &self.parameters[parameter].arguments;
         if call.args.len() != names.len() {
@@ -221,7 +256,7 @@ impl Context<'_> {
         argument: &Shaped,
         faults: &mut Faults,
     ) -> Option<()> {
-        let moving = |term: &Term| matches!(term, Term::Time | Term::Rate(_) | Term::Law { .. });
+        let moving = |term: &Term| term.is_rate() || matches!(term, Term::Time | Term::Law { .. });
         if argument.terms.iter().any(|term| term.has(moving)) {
             let name = code(&call.func);
             faults.at(

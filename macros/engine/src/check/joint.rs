@@ -361,10 +361,7 @@ impl Reader<'_> {
         }
         let Some(term) = term else { return };
         let not_of_places = term.has(|term| {
-            matches!(
-                term,
-                Term::Rate(_) | Term::Time | Term::Law { .. } | Term::Angle(_)
-            )
+            term.is_rate() || matches!(term, Term::Time | Term::Law { .. } | Term::Angle(_))
         });
         if not_of_places {
             faults.at(
@@ -484,7 +481,7 @@ impl Reader<'_> {
 
 /// Refuses a rate where it has no place.
 fn has_rate(term: &Term, at: impl ToTokens, message: &str, faults: &mut Faults) -> bool {
-    let has = term.has(|term| matches!(term, Term::Rate(_)));
+    let has = term.has(Term::is_rate);
     if has {
         faults.at(at, message);
     }

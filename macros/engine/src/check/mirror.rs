@@ -74,6 +74,7 @@ impl Choice {
             // Axis, normal and binormal are right-handed in either world.
             Term::Normal { parameter, .. } => self.direction(*parameter).turned_round(),
             Term::Angle(turn) => self.direction(turn.axis).turned_round(),
+            Term::Spin { .. } => Parity::Odd,
             Term::Onto(_, inner) | Term::Initial(inner) | Term::Rate(inner) => self.of(inner),
             Term::Sum(terms) => {
                 let parities = terms.iter().map(|(_, term)| self.of(term));

@@ -207,6 +207,13 @@ pub enum Term {
     Initial(Box<Term>),
     /// The time derivative of a scalar.
     Rate(Box<Term>),
+    /// The angular velocity of a body against another.
+    Spin {
+        /// The place of the body that it is measured from.
+        from: usize,
+        /// The place of the body that turns.
+        to: usize,
+    },
     /// The value of a law.
     Law {
         /// The place of the parameter.
@@ -251,6 +258,7 @@ impl Term {
             | Self::Fixed { .. }
             | Self::Normal { .. }
             | Self::Origin(_)
+            | Self::Spin { .. }
             | Self::Angle(_) => Vec::new(),
             Self::Components(components) => components.iter().map(|term| &**term).collect(),
             Self::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),
@@ -298,10 +306,17 @@ impl Term {
             | Self::Normal { .. }
             | Self::Origin(_)
             | Self::Onto(..)
+            | Self::Spin { .. }
             | Self::Angle(_) => true,
             Self::Initial(_) => false,
             _ => self.parts().into_iter().any(Self::moves),
         }
+    }
+
+    /// Whether it is a rate itself, which has no derivative.
+    #[must_use]
+    pub const fn is_rate(&self) -> bool {
+        matches!(self, Self::Rate(_) | Self::Spin { .. })
     }
 
     /// Whether something in it fulfils a condition.

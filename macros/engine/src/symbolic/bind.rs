@@ -148,6 +148,9 @@ impl Binder<'_> {
                 Box::new(self.vector(arena, a)),
                 Box::new(self.vector(arena, b)),
             ),
+            Term::Spin { from, to } => {
+                VectorExpr::Spin([*from, *to].map(|body| self.element.bodies[body]))
+            }
             Term::Number(_)
             | Term::Scalar(_)
             | Term::Time
@@ -221,6 +224,7 @@ impl Binder<'_> {
             | Term::Origin(_)
             | Term::Components(_)
             | Term::Onto(..)
+            | Term::Spin { .. }
             | Term::Cross(..) => unreachable!("shapes are checked where the definition stands"),
         }
     }

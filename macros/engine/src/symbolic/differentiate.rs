@@ -35,6 +35,11 @@ impl VectorExpr {
                 let (a, b) = (a.value(space, motion), b.value(space, motion));
                 space.cross(Frame::Global, a, b)
             }
+            Self::Spin([from, to]) => {
+                let spin = |(body, sign): (Option<usize>, Expr)| Some((sign, motion.spin[body?]));
+                let spins = [(*to, Arena::ONE), (*from, -Arena::ONE)];
+                space.sum(spins.into_iter().filter_map(spin))
+            }
         }
     }
 
@@ -71,6 +76,7 @@ impl VectorExpr {
                 );
                 space.sum([(Arena::ONE, first), (Arena::ONE, second)])
             }
+            Self::Spin(_) => unreachable!("there is no rate of a rate in the language"),
         }
     }
 
@@ -110,6 +116,7 @@ impl VectorExpr {
                 let two = space.arena.constant(2.0);
                 space.sum([(Arena::ONE, first), (two, mixed), (Arena::ONE, last)])
             }
+            Self::Spin(_) => unreachable!("there is no rate of a rate in the language"),
         }
     }
 
@@ -161,6 +168,7 @@ impl VectorExpr {
                 a.pull_back(space, motion, factor, on_a, gradient);
                 b.pull_back(space, motion, factor, on_b, gradient);
             }
+            Self::Spin(_) => unreachable!("only positions have a gradient in the language"),
         }
     }
 }

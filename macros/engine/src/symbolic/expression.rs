@@ -17,6 +17,9 @@ pub enum VectorExpr {
     Scaled(Box<ScalarExpr>, Box<VectorExpr>),
     /// A cross product.
     Cross(Box<VectorExpr>, Box<VectorExpr>),
+    /// The angular velocity of the second body against the first, which has no derivative of its
+    /// own.
+    Spin([Option<usize>; 2]),
 }
 
 /// A scalar expression, bound to the bodies of a mechanism.

@@ -75,7 +75,7 @@ fn each_scalar<'a>(effect: &'a Effect, visit: &mut impl FnMut(&'a ScalarExpr)) {
 /// The factors of a vector.
 fn factors<'a>(vector: &'a VectorExpr, visit: &mut impl FnMut(&'a ScalarExpr)) {
     match vector {
-        VectorExpr::Fixed(..) | VectorExpr::Point(..) => {}
+        VectorExpr::Fixed(..) | VectorExpr::Point(..) | VectorExpr::Spin(_) => {}
         VectorExpr::Sum(terms) => terms.iter().for_each(|(_, term)| factors(term, visit)),
         VectorExpr::Scaled(factor, inner) => {
             visit(factor);
@@ -107,7 +107,22 @@ fn parts(scalar: &ScalarExpr) -> Vec<&ScalarExpr> {
 
 /// Whether it depends on a rate: the direction of a velocity is that of friction, which holds.
 fn has_rate(scalar: &ScalarExpr) -> bool {
-    matches!(scalar, ScalarExpr::Rate(_)) || parts(scalar).into_iter().any(has_rate)
+    match scalar {
+        ScalarExpr::Rate(_) => true,
+        ScalarExpr::Dot(a, b) => has_spin(a) || has_spin(b),
+        _ => parts(scalar).into_iter().any(has_rate),
+    }
+}
+
+/// The same of a vector.
+fn has_spin(vector: &VectorExpr) -> bool {
+    match vector {
+        VectorExpr::Spin(_) => true,
+        VectorExpr::Fixed(..) | VectorExpr::Point(..) => false,
+        VectorExpr::Sum(terms) => terms.iter().any(|(_, term)| has_spin(term)),
+        VectorExpr::Scaled(factor, inner) => has_rate(factor) || has_spin(inner),
+        VectorExpr::Cross(a, b) => has_spin(a) || has_spin(b),
+    }
 }
 
 /// What stands under a root, if it is the square of a separation.
@@ -119,12 +134,8 @@ fn under(length: &ScalarExpr) -> Option<&ScalarExpr> {
         ScalarExpr::Product(a, b) => a == b && !has_rate(a),
         _ => false,
     };
-    let mut is_of_places = true;
-    if let ScalarExpr::Dot(vector, _) = &**under {
-        factors(vector, &mut |factor| is_of_places &= !has_rate(factor));
-    }
     match &**under {
-        ScalarExpr::Dot(a, b) if a == b && is_of_places => Some(under),
+        ScalarExpr::Dot(a, b) if a == b && !has_spin(a) => Some(under),
         ScalarExpr::Sum(terms) if terms.len() <= 3 => terms
             .iter()
             .all(|(factor, term)| *factor == Arena::ONE && is_square(term))

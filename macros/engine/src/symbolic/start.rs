@@ -43,6 +43,9 @@ pub(super) fn vector(arena: &mut Arena, model: &Model, expr: &VectorExpr) -> Tri
             let (a, b) = (vector(arena, model, a), vector(arena, model, b));
             cross(arena, a, b)
         }
+        VectorExpr::Spin(_) => {
+            unreachable!("the language refuses rates in the reference configuration")
+        }
     }
 }
 

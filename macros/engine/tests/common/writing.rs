@@ -350,7 +350,17 @@ impl Writer<'_> {
                 )
             }
             2 => Statement::Force(self.vector(3, false), self.point()),
-            _ => Statement::Moment(self.vector(3, false), self.body()),
+            _ => {
+                let (moment, body) = (self.vector(3, false), self.body());
+                if self.bodies < 2 || self.dice.below(2) == 0 {
+                    return Statement::Moment(moment, body);
+                }
+                let from = self.dice.below(self.bodies);
+                let to = (from + 1) % self.bodies;
+                let (from, to) = (BODIES[from], BODIES[to]);
+                let damped = format!("{moment} - 0.3 * angular_velocity({from}, {to})");
+                Statement::Moment(damped, body)
+            }
         }
     }
 
