@@ -2,14 +2,14 @@
 
 use syn::{Expr, ExprCall};
 
-use super::expression::{Context, Shaped};
+use super::expression::{Context, Shaped, value};
 use super::switching::SWITCHING;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::{ElementKind, Function, ParameterKind, Term, Turn};
 use crate::syntax::ungroup;
 
 /// The functions of vectors and of states, beside those of numbers.
-const FUNCTIONS: [&str; 9] = [
+const FUNCTIONS: [&str; 10] = [
     "dot",
     "cross",
     "squared",
@@ -19,7 +19,16 @@ const FUNCTIONS: [&str; 9] = [
     "initial",
     "rate",
     "angular_velocity",
+    "atan2",
 ];
+
+impl Function {
+    /// Why a number has no value of a function of this name; `None` where it has one.
+    pub(super) fn refusal(self, name: &str, x: f64) -> Option<String> {
+        let is_beyond = matches!(self, Self::ArcSine | Self::ArcCosine) && x.abs() > 1.0;
+        is_beyond.then(|| format!("`{name}` takes a number from -1 to 1; this is {x}"))
+    }
+}
 
 impl Context<'_> {
     pub(super) fn call(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
@@ -33,8 +42,12 @@ impl Context<'_> {
         }
         if let Some(function) = Function::named(&name) {
             let [argument] = self.arguments::<1>(call, "1 number", faults)?;
-            let argument = self.argument(&name, argument, faults)?;
-            return Some(Shaped::scalar(Term::Function(function, Box::new(argument))));
+            let term = self.argument(&name, argument, faults)?;
+            if let Some(refusal) = value(&term).and_then(|value| function.refusal(&name, value)) {
+                faults.at(argument, refusal);
+                return None;
+            }
+            return Some(Shaped::scalar(Term::Function(function, Box::new(term))));
         }
         match name.as_str() {
             "dot" | "cross" => {
@@ -59,6 +72,7 @@ impl Context<'_> {
                 Some(squared)
             }
             "angle" => self.angle(call, faults),
+            "atan2" => self.direction_of(call, faults),
             "fixed" => self.fixed(call, faults),
             "initial" => {
                 let [argument] = self.arguments::<1>(call, "1 number", faults)?;
@@ -165,6 +179,16 @@ impl Context<'_> {
             return None;
         }
         Some(Shaped::scalar(Term::Angle(turn)))
+    }
+
+    fn direction_of(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
+        let [sine, cosine] = self.arguments::<2>(call, "2 numbers", faults)?;
+        let (sine, cosine) = (
+            self.argument("atan2", sine, faults),
+            self.argument("atan2", cosine, faults),
+        );
+        let (sine, cosine) = (Box::new(sine?), Box::new(cosine?));
+        Some(Shaped::scalar(Term::Direction(sine, cosine)))
     }
 
     fn fixed(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {

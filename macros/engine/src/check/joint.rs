@@ -159,7 +159,7 @@ fn turns<'t>(terms: impl Iterator<Item = &'t Term>) -> Vec<Turn> {
         match term {
             Term::Angle(turn) if !turns.contains(turn) => turns.push(*turn),
             Term::Sum(terms) => terms.iter().for_each(|(_, term)| find(term, turns)),
-            Term::Product(a, b) | Term::Dot(a, b) | Term::Cross(a, b) => {
+            Term::Product(a, b) | Term::Dot(a, b) | Term::Cross(a, b) | Term::Direction(a, b) => {
                 find(a, turns);
                 find(b, turns);
             }
@@ -493,7 +493,7 @@ fn is_constant(term: &Term) -> bool {
     match term {
         Term::Number(_) | Term::Scalar(_) | Term::Initial(_) => true,
         Term::Sum(terms) => terms.iter().all(|(_, term)| is_constant(term)),
-        Term::Product(a, b) => is_constant(a) && is_constant(b),
+        Term::Product(a, b) | Term::Direction(a, b) => is_constant(a) && is_constant(b),
         Term::Function(_, term) => is_constant(term),
         _ => false,
     }

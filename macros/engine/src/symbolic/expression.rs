@@ -39,6 +39,8 @@ pub enum ScalarExpr {
     Function(Function, Box<ScalarExpr>),
     /// An angle over many turns.
     Angle(Box<AngleExpr>),
+    /// An angle from `-pi` to `pi`, which counts no turns.
+    Direction(Box<AngleExpr>),
     /// An input with its first and second derivative.
     Setpoint([Expr; 3]),
     /// The time derivative, which has no derivative of its own.

@@ -94,6 +94,7 @@ fn parts(scalar: &ScalarExpr) -> Vec<&ScalarExpr> {
         ScalarExpr::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),
         ScalarExpr::Product(a, b) => vec![a, b],
         ScalarExpr::Function(_, inner) | ScalarExpr::Rate(inner) => vec![inner],
+        ScalarExpr::Direction(angle) => vec![&angle.sine, &angle.cosine],
         ScalarExpr::Side { of, .. } => vec![of],
         ScalarExpr::Select { side, parts } => vec![side, &parts[0], &parts[1]],
         ScalarExpr::Constant(_)
@@ -291,6 +292,16 @@ impl Probe<'_> {
                 let [x, by] = self.dual(inner);
                 let [value, slope] = self.function(*function, x);
                 [value, if by == 0.0 { 0.0 } else { slope * by }]
+            }
+            ScalarExpr::Direction(angle) => {
+                let ([s, ds], [c, dc]) = (self.dual(&angle.sine), self.dual(&angle.cosine));
+                let area = c * ds - s * dc;
+                let slope = if area == 0.0 {
+                    0.0
+                } else {
+                    area / (c * c + s * s)
+                };
+                [s.atan2(c), slope]
             }
             ScalarExpr::Rate(inner) => {
                 // Of what depends on the length, by the chain rule.

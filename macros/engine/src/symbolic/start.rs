@@ -88,6 +88,11 @@ pub(super) fn scalar(arena: &mut Arena, model: &Model, expr: &ScalarExpr) -> Exp
             let inner = scalar(arena, model, inner);
             function.value(arena, inner)
         }
+        ScalarExpr::Direction(angle) => {
+            let sine = scalar(arena, model, &angle.sine);
+            let cosine = scalar(arena, model, &angle.cosine);
+            arena.atan2(sine, cosine)
+        }
         ScalarExpr::Angle(_) => Arena::ZERO,
         ScalarExpr::Time
         | ScalarExpr::Setpoint(_)

@@ -479,6 +479,14 @@ impl<'a> Interpreter<'a> {
                 });
                 vector([0, 1, 2].map(|k| constant(to[k] - from[k])))
             }
+            "asin" => scalar(number(0).asin()),
+            "acos" => scalar(number(0).acos()),
+            "atan" => scalar(number(0).atan()),
+            "atan2" => {
+                let (sine, cosine) = (number(0), number(1));
+                self.avoid(sine * sine + cosine * cosine);
+                scalar(arc(sine, cosine))
+            }
             "sqrt" => scalar(self.root(number(0))),
             "sin" => scalar(number(0).sin()),
             "cos" => scalar(number(0).cos()),

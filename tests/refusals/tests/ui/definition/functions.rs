@@ -20,6 +20,10 @@ holonom::joint! {
         initial(angle(i, j, axis), 1.0);
         rate(length);
         angular_velocity(i, j);
+        atan2(length);
+        atan2(i.axis, length);
+        dot(i.axis, j.axis) - asin(2.0);
+        dot(i.axis, j.axis) - acos(0.5 - 2.0);
     }
 }
 
