@@ -16,6 +16,7 @@ mod points;
 pub(crate) mod reaction;
 #[cfg(feature = "mint")]
 mod to_mint;
+mod two_angles;
 pub(crate) mod unwrapped;
 pub(crate) mod view;
 pub(crate) mod viewed;

@@ -194,6 +194,8 @@ fn motions_count_in_the_order_of_the_definition() -> Result<(), Fault> {
     let bodies = space.bodies(&state);
     let view = sleeves.view(0.0, &bodies)?;
     assert!((view.angle(h.sleeve) - 0.1).abs() < 1e-15);
+    let [first, second] = view.angles(h.universal);
+    assert!((first - 0.5).abs() < 1e-15 && (second - 0.6).abs() < 1e-15);
     assert!((view.displacement(h.turned) - 0.4).abs() < 1e-15);
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+mod cardan;
 mod choice;
 mod continuation;
 mod counts;

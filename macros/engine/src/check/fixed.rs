@@ -30,6 +30,9 @@ pub(super) fn uses(joint: &ElementDef, body: usize) -> Vec<(usize, ParameterKind
     if let Some(angle) = joint.angle {
         note(&Term::Angle(angle));
     }
+    for (body, parameter) in joint.angles.iter().flatten().copied().enumerate() {
+        note(&Term::Fixed { body, parameter });
+    }
     found.sort_unstable();
     found.dedup();
     found

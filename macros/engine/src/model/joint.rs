@@ -440,6 +440,9 @@ pub struct ElementDef {
     pub actions: Vec<Action>,
     /// The angle that can be read, of its second body against its first.
     pub angle: Option<Turn>,
+    /// The axes of the two angles that can be read, in their order: `None` but for a joint of two
+    /// bodies that leaves the turns about them, the second carried by the first.
+    pub angles: Option<[usize; 2]>,
     /// The displacement that can be read.
     pub displacement: Option<Term>,
     /// What is positive on the side that is meant, of the configurations that satisfy its

@@ -50,7 +50,7 @@ pub(super) fn vector(arena: &mut Arena, model: &Model, expr: &VectorExpr) -> Tri
 }
 
 /// A vector in the reference configuration, in the principal axes of a body.
-pub(super) fn on_body(
+pub(crate) fn on_body(
     arena: &mut Arena,
     model: &Model,
     expr: &VectorExpr,
