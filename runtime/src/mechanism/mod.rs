@@ -30,7 +30,7 @@ pub(crate) mod table;
 pub(crate) mod terms;
 pub(crate) mod turns;
 
-pub use bodies::Bodies;
+pub use bodies::{Bodies, Joints};
 pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
 };
