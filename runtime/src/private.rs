@@ -16,10 +16,10 @@ pub use crate::mechanism::table::{Sources, angle_of, least};
 pub use crate::mechanism::{
     Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
     Driven, ElementPlace, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
-    HasCoriolis, HasDisplacement, HasGravity, HasInverse, HasJacobian, HasMassMatrix, Joint,
-    JointCounter, JointInfo, JointMotion, JointRates, JointReport, Kernel, Marker, MarkerKind,
-    Operations, Pivot, PointHandle, PointInfo, Rank, RedundantRow, Relative, Shape, ShapeKind,
-    Stabilisation, StateHandle, StateInfo, Terms, ValueHandle, ValueInfo,
+    HasCoriolis, HasDisplacement, HasGravity, HasInverse, HasJacobian, HasMassMatrix, HasTwoAngles,
+    Joint, JointCounter, JointInfo, JointMotion, JointRates, JointReport, Kernel, Marker,
+    MarkerKind, Operations, Pivot, PointHandle, PointInfo, Rank, RedundantRow, Relative, Shape,
+    ShapeKind, Stabilisation, StateHandle, StateInfo, Terms, ValueHandle, ValueInfo,
 };
 pub use crate::state::{Array, JointState, State};
 
@@ -388,6 +388,7 @@ impl crate::mechanism::Joint for AnyJoint {
 }
 
 impl crate::mechanism::HasAngle for AnyJoint {}
+impl crate::mechanism::HasTwoAngles for AnyJoint {}
 
 impl crate::mechanism::HasDisplacement for AnyJoint {}
 

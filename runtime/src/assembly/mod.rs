@@ -64,6 +64,19 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
     state: &mut M::State<S>,
     from: &M::State<S>,
 ) -> Result<Correction<S>, Fault> {
+    let none: Option<&fn(usize) -> bool> = None;
+    assembled_holding::<S, M, _>(projection, constants, time, state, from, none)
+}
+
+/// The same, where what the joints that carry some bodies have in the state is held.
+pub(crate) fn assembled_holding<S: Real, M: Mechanism, F: Fn(usize) -> bool>(
+    projection: &Projection<S>,
+    constants: &M::Constants<S>,
+    time: S,
+    state: &mut M::State<S>,
+    from: &M::State<S>,
+    held: Option<&F>,
+) -> Result<Correction<S>, Fault> {
     check_state::<S, M>(state)?;
     let given = *state;
     let length = characteristic_length::<S, M>(constants, from);
@@ -95,6 +108,10 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
         }
     };
     let set = Set::<S, M>::of(constants, time, &given, from, length);
+    let set = match held {
+        Some(held) => set.holding(&given, held),
+        None => set,
+    };
     // Motions of joints that were set are kept, however small they are.
     let at_once_by = match &at_once {
         Ok(correction) if set.is_clean() && correction.iterations > 0 => 0.0,
@@ -110,7 +127,10 @@ pub(crate) fn assembled<S: Real, M: Mechanism>(
     }
     // What was not set goes along from where the branch is known; where all was set, or nothing,
     // the state itself is the guess.
-    let start = if set.is_part() { from } else { &given };
+    let start = match set.is_part() {
+        true => set.start(),
+        false => &given,
+    };
     let mut start = with_unit_orientations::<S, M>(start);
     M::rewrap(constants, &mut start);
     let start = righted::<S, M>(constants, &start, from);

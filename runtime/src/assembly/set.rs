@@ -28,6 +28,10 @@ pub(super) struct Set<S: Scalar, M: Mechanism> {
     kept: usize,
     /// Whether no joint of the tree was opened.
     is_closed: bool,
+    /// Of each body in the place of its first velocity: one where what carries it is held.
+    held: M::Velocities<S>,
+    /// Whether any is.
+    pub(super) has_held: bool,
 }
 
 /// Where a body is, seen from what carries it: its joint's point, and its orientation.
@@ -51,6 +55,8 @@ impl<S: Real, M: Mechanism> Set<S, M> {
             changed: 0,
             kept: 0,
             is_closed: closes_tree::<S, M>(constants, time, given),
+            held: M::Velocities::<S>::zeros(),
+            has_held: false,
         };
         let least = S::EPSILON.sqrt();
         for (body, info) in M::REPORT.bodies.iter().enumerate() {
@@ -81,9 +87,53 @@ impl<S: Real, M: Mechanism> Set<S, M> {
         set
     }
 
-    /// Whether some bodies were set and others not.
+    /// The same, to hold what the joints that carry some bodies have in a state. The others begin
+    /// there, as a guess, where one of them was set, and else where they were before.
+    pub(super) fn holding(self, given: &M::State<S>, held: &impl Fn(usize) -> bool) -> Self {
+        let mut holding = Self {
+            motion: M::Velocities::<S>::zeros(),
+            changed: 0,
+            kept: 0,
+            is_closed: true,
+            has_held: true,
+            ..self
+        };
+        let bodies = || M::REPORT.bodies.iter().enumerate();
+        let mut others = bodies().filter(|&(body, _)| !held(body));
+        let is_guess = others.any(|(body, _)| self.holds(body));
+        if is_guess {
+            holding.from = *given;
+        }
+        for (body, info) in bodies() {
+            let place = info.velocity;
+            if held(body) {
+                holding.changed += 1;
+                if let Some(flag) = holding.held.as_mut_slice().get_mut(place) {
+                    *flag = S::one();
+                }
+                if !is_guess {
+                    let motion = holding.motion.as_mut_slice();
+                    let own = self.motion.as_slice();
+                    write(motion, place, read::<S, 3>(own, place));
+                    if info.kind == BodyKind::Rigid {
+                        write(motion, place + 3, read::<S, 3>(own, place + 3));
+                    }
+                }
+            } else if is_movable::<M>(body) {
+                holding.kept += 1;
+            }
+        }
+        holding
+    }
+
+    /// The state that the others are moved from.
+    pub(super) const fn start(&self) -> &M::State<S> {
+        &self.from
+    }
+
+    /// Whether some bodies were set and others not, or some are held.
     pub(super) fn is_part(&self) -> bool {
-        self.changed > 0 && self.kept > 0
+        self.changed > 0 && (self.kept > 0 || self.has_held)
     }
 
     /// Whether all was set that can move.
@@ -114,6 +164,10 @@ impl<S: Real, M: Mechanism> Set<S, M> {
             .bodies
             .get(body)
             .map_or(usize::MAX, |info| info.velocity);
+        let [held]: [S; 1] = read(self.held.as_slice(), place);
+        if held > S::zero() {
+            return true;
+        }
         let motion: [S; 6] = read(self.motion.as_slice(), place);
         let [a, b, c, d, e, f] = motion;
         let rotation = match M::REPORT.bodies.get(body).map(|info| info.kind) {

@@ -268,8 +268,8 @@ pub(super) fn plus<S: Real>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
     [a1 + b1, a2 + b2, a3 + b3]
 }
 
-/// Why a joint that carries no body cannot be set.
-fn closes<M: Mechanism>(joint: usize) -> Fault {
+/// Why a joint that carries no body cannot be set or held.
+pub(crate) fn closes<M: Mechanism>(joint: usize) -> Fault {
     let info = M::REPORT.joints.get(joint);
     let bodies = info.map_or(&[][..], |info| info.bodies);
     let carrier = |body: &Option<usize>| M::REPORT.carriers.get((*body)?)?.joint;

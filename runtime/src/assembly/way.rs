@@ -150,11 +150,11 @@ impl<'a, S: Real, M: Mechanism> Way<'a, S, M> {
                 return Err(self.ends(share));
             }
         }
-        if is_free == Some(true) {
+        if is_free == Some(true) || self.set.has_held {
             self.close();
         }
         let missed = self.missed(&self.state, one);
-        let may_be_free = is_free == Some(true) || self.set.may_be_free();
+        let may_be_free = is_free == Some(true) || self.set.may_be_free() || self.set.has_held;
         if may_be_free && self.set.is_clean() && missed > S::constant(MISSED) {
             let gone = if is_free == Some(true) {
                 share

@@ -37,6 +37,11 @@ pub enum ReadingFault {
         /// Which angles.
         angles: AngleSet,
     },
+    /// The centre of mass of bodies was asked for whose masses add up to zero, or of none.
+    NoMass {
+        /// How many bodies there are.
+        bodies: u32,
+    },
     /// The handle of an [`Interaction`](crate::run::Interaction) of another list: the run's own has
     /// none at this place, or another one.
     NoSuchInteraction {
@@ -104,6 +109,16 @@ impl fmt::Display for ReadingFault {
                      known; {regular} are regular there"
                 )
             }
+            Self::NoMass { bodies: 0 } => {
+                write!(f, "no body was named: there is no centre of mass")
+            }
+            Self::NoMass { bodies: 1 } => {
+                write!(f, "the body has no mass, and so no centre of mass")
+            }
+            Self::NoMass { bodies } => write!(
+                f,
+                "the masses of the {bodies} bodies add up to zero: they have no common centre of mass"
+            ),
             Self::NoSuchInteraction {
                 number,
                 interactions,

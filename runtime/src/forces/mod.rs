@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`SpringDamper`] | i, j | spring and damper between two points |
 //! | [`TorsionalSpringDamper`] | i, j | spring and damper on an angle |
+//! | [`RotationalDamper`] | i, j | a damper against all rotation, as in a ball joint |
 //! | [`Actuator`] | i, j | a force along the line of two points, any function of length, rate and time |
 //! | [`TorsionalActuator`] | i, j | a moment about an axis, any function of angle, rate and time |
 //! | [`PointForce`] | i, j | a force at a point of `j`, fixed in the axes of `i` |

@@ -18,6 +18,18 @@ crate::force! {
 }
 
 crate::force! {
+    /// A damper against all rotation of `j` against `i`, for a ball joint or no joint at all: the
+    /// moment `-damping w` (N m) acts on `j`, and the opposite on `i`, with the angular velocity
+    /// `w` (rad/s) of `j` against `i`. Damping in N m s/rad, the same about every axis; power
+    /// `-damping w . w`. About one axis alone it is a [`TorsionalSpringDamper`] without stiffness.
+    pub force RotationalDamper(i, j; damping: Number) {
+        let w = angular_velocity(i, j);
+        moment -damping * w on j;
+        moment damping * w on i;
+    }
+}
+
+crate::force! {
     /// A spring and a damper on the angle of `j` against `i` about `axis`, in parallel: they turn
     /// `j` back by `stiffness (a - free_angle) + damping a'` (N m), where `a` is the angle (rad),
     /// right-handed, zero in the reference configuration; turns are counted by an auxiliary

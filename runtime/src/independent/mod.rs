@@ -5,8 +5,8 @@
 //! - `determined.rs`: whether a state is one to compute by.
 //! - `partition.rs`: the other rates, from the equations that close loops (coordinate partitioning,
 //!   Wehage and Haug 1982).
-//! - `equations.rs`: mass matrix and efforts. `points.rs`: Jacobians. `states.rs`: the way to
-//!   states and back; `followed.rs`: the same near a singular configuration.
+//! - `equations.rs`: mass matrix and efforts. `points.rs`, `momentum.rs`: Jacobians. `states.rs`:
+//!   the way to states and back; `followed.rs`: the same near a singular configuration.
 //! - `directions.rs`: derivatives along coordinates, rates and values.
 //! - `elimination.rs`: Gauss-Jordan, for these equations and for Newton's method.
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions,
@@ -45,6 +45,7 @@ mod linearised;
 mod lqr;
 #[cfg(feature = "std")]
 mod modes;
+mod momentum;
 mod partition;
 mod points;
 mod regressor;

@@ -10,7 +10,7 @@ use crate::math::scalar::Scalar;
 use crate::math::vec3::{cross, read};
 use crate::measure::access::MechanismExt;
 use crate::measure::view::View;
-use crate::mechanism::handle::{BodyHandle, HasAngle, HasDisplacement, JointHandle};
+use crate::mechanism::handle::{BodyHandle, HasAngle, HasDisplacement, HasTwoAngles, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::state::vector::{Array, StateParts};
 
@@ -76,6 +76,20 @@ impl<S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'_, S, M, K> {
         let parts = M::joint_angle(&constants, &state, joint.index());
         let [acceleration] = parts.rate.derivatives();
         acceleration
+    }
+
+    /// The accelerations of both angles of a joint (rad/s^2), with the signs of [`View::angles`].
+    #[must_use]
+    pub fn angle_accelerations<J: HasTwoAngles>(
+        &self,
+        rates: &M::State<S>,
+        joint: JointHandle<M, J>,
+    ) -> [S; 2] {
+        let (constants, state) = self.moving(rates);
+        M::joint_angles(&constants, &state, joint.index()).map(|parts| {
+            let [acceleration] = parts.rate.derivatives();
+            acceleration
+        })
     }
 
     /// The acceleration of the displacement of a joint (m/s^2), with the sign of

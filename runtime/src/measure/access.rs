@@ -2,8 +2,8 @@
 
 use nalgebra::{Quaternion, Vector3};
 
-use crate::assembly::assembled;
-use crate::assembly::subtree::Subtree;
+use crate::assembly::subtree::{Subtree, closes};
+use crate::assembly::{assembled, assembled_holding};
 use crate::constraints::projection::{Correction, Projection};
 use crate::error::{AssemblyFault, Fault, ParameterError};
 use crate::math::quaternion::{
@@ -11,6 +11,7 @@ use crate::math::quaternion::{
 };
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read, write};
+use crate::mechanism::bodies::Joints;
 use crate::mechanism::handle::{
     BodyHandle, CountsTurns, HasAngle, HasDisplacement, Joint, JointHandle, StateHandle,
 };
@@ -106,6 +107,37 @@ pub trait MechanismExt: Mechanism {
         let constants = self.constants()?;
         check_state::<S, Self>(from)?;
         assembled::<S, Self>(&Projection::default(), &constants, time, state, from)
+    }
+
+    /// [`MechanismExt::assemble`] that holds chosen joints: their angles, displacements and
+    /// relative orientations stay what they are in the state, to round-off, and all others follow.
+    ///
+    /// The others begin where the described state has them. If the state has one of them elsewhere,
+    /// they begin where it has them all, as a guess. Rates are not held: velocities change as in
+    /// [`MechanismExt::assemble`].
+    ///
+    /// # Errors
+    /// As [`MechanismExt::assemble`]; [`AssemblyFault::WayEnds`] also where the constraints do not
+    /// let all of these joints be held. [`AssemblyFault::CarriesNothing`] for a joint that carries
+    /// no body: it closes a loop, or drives. The state is then as before.
+    fn assemble_holding<S: Real>(
+        &self,
+        time: S,
+        state: &mut Self::State<S>,
+        held: impl Joints<Self>,
+    ) -> Result<Correction<S>, Fault> {
+        let constants = self.constants()?;
+        let from = Self::initial_state(&constants);
+        let carriers = || Self::REPORT.carriers.iter();
+        for joint in (0..Self::REPORT.joints.len()).filter(|&joint| held.has_joint(joint)) {
+            if !carriers().any(|carrier| carrier.joint == Some(joint)) {
+                return Err(closes::<Self>(joint));
+            }
+        }
+        let carrier = |body: usize| Self::REPORT.carriers.get(body)?.joint;
+        let held = |body: usize| carrier(body).is_some_and(|joint| held.has_joint(joint));
+        let projection = Projection::default();
+        assembled_holding::<S, Self, _>(&projection, &constants, time, state, &from, Some(&held))
     }
 
     /// The Euler parameters (scalar first, of length 1) of the rotation from the user's body axes

@@ -166,7 +166,7 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
     /// [`ReadingFault::SingularAngles`] where the body's z axis is parallel to the global one;
     /// [`StepFault::StateNotFinite`], [`StepFault::ZeroOrientation`].
     pub fn euler_angles(&self, body: BodyHandle<M>) -> Result<EulerAngles<S>, Fault> {
-        self.angles(body, None, AngleSet::EulerZxz)
+        self.regular_angles(body, None, AngleSet::EulerZxz)
     }
 
     /// Euler angles (rad) of a body, z-x-z, against the axes of another body.
@@ -178,7 +178,7 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
         body: BodyHandle<M>,
         base: BodyHandle<M>,
     ) -> Result<EulerAngles<S>, Fault> {
-        self.angles(body, Some(base), AngleSet::EulerZxz)
+        self.regular_angles(body, Some(base), AngleSet::EulerZxz)
     }
 
     /// Bryant angles (rad) of a body, x-y-z, against global axes.
@@ -187,7 +187,7 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
     /// [`ReadingFault::SingularAngles`] where the body's z axis is parallel to the global x axis;
     /// [`StepFault::StateNotFinite`], [`StepFault::ZeroOrientation`].
     pub fn bryant_angles(&self, body: BodyHandle<M>) -> Result<BryantAngles<S>, Fault> {
-        self.angles(body, None, AngleSet::BryantXyz)
+        self.regular_angles(body, None, AngleSet::BryantXyz)
     }
 
     /// Bryant angles (rad) of a body, x-y-z, against the axes of another body.
@@ -199,7 +199,7 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
         body: BodyHandle<M>,
         base: BodyHandle<M>,
     ) -> Result<BryantAngles<S>, Fault> {
-        self.angles(body, Some(base), AngleSet::BryantXyz)
+        self.regular_angles(body, Some(base), AngleSet::BryantXyz)
     }
 
     /// Roll, pitch and yaw (rad) of a body, against global axes.
@@ -208,7 +208,7 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
     /// [`ReadingFault::SingularAngles`] where the body's x axis is parallel to the global z axis;
     /// [`StepFault::StateNotFinite`], [`StepFault::ZeroOrientation`].
     pub fn roll_pitch_yaw(&self, body: BodyHandle<M>) -> Result<RollPitchYaw<S>, Fault> {
-        self.angles(body, None, AngleSet::RollPitchYaw)
+        self.regular_angles(body, None, AngleSet::RollPitchYaw)
     }
 
     /// Roll, pitch and yaw (rad) of a body, against the axes of another body.
@@ -220,10 +220,10 @@ impl<S: Real, M: Mechanism, K: core::borrow::Borrow<M::Constants<S>>> View<'_, S
         body: BodyHandle<M>,
         base: BodyHandle<M>,
     ) -> Result<RollPitchYaw<S>, Fault> {
-        self.angles(body, Some(base), AngleSet::RollPitchYaw)
+        self.regular_angles(body, Some(base), AngleSet::RollPitchYaw)
     }
 
-    fn angles<A: From<[S; 3]>>(
+    fn regular_angles<A: From<[S; 3]>>(
         &self,
         body: BodyHandle<M>,
         base: Option<BodyHandle<M>>,

@@ -9,6 +9,7 @@ mod angle_rates;
 pub(crate) mod angles;
 pub(crate) mod interacting;
 pub(crate) mod load;
+pub(crate) mod momentum;
 #[cfg(feature = "serde")]
 pub(crate) mod named_state;
 mod points;
@@ -16,6 +17,7 @@ pub(crate) mod reaction;
 pub(crate) mod scaled;
 #[cfg(feature = "mint")]
 mod to_mint;
+mod two_angles;
 pub(crate) mod unwrapped;
 pub(crate) mod view;
 pub(crate) mod viewed;

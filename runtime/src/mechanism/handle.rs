@@ -53,6 +53,14 @@ pub trait Force {
 )]
 pub trait HasAngle: Joint {}
 
+/// A joint whose definition has two angles, such as [`Universal`](crate::joints::Universal).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has not two angles",
+    label = "the definition of this joint names no two angles",
+    note = "two angles can be read from joints with two rotations, such as `Universal`; one from joints with one, by `angle`"
+)]
+pub trait HasTwoAngles: Joint {}
+
 /// A joint whose definition has a displacement.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no displacement",

@@ -440,6 +440,16 @@ pub trait Mechanism: Sized + 'static {
         joint: usize,
     ) -> AngleParts<S>;
 
+    /// Both angles of a joint by its index, without a count of turns. For a joint that has not two
+    /// angles each has `cosine = 1`, `sine = rate = 0`.
+    fn joint_angles<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _state: &Self::State<S>,
+        _joint: usize,
+    ) -> [AngleParts<S>; 2] {
+        [AngleParts::none(); 2]
+    }
+
     /// The displacement of a joint by its index, as its definition states it, and its rate; zeros
     /// for a joint without one.
     fn joint_displacement<S: Scalar>(

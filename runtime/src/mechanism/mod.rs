@@ -8,6 +8,7 @@
 pub(crate) mod absolute;
 pub(crate) mod at;
 pub(crate) mod blocks;
+pub(crate) mod bodies;
 pub(crate) mod body;
 pub(crate) mod by_rows;
 pub(crate) mod coordinates;
@@ -29,12 +30,13 @@ pub(crate) mod table;
 pub(crate) mod terms;
 pub(crate) mod turns;
 
+pub use bodies::{Bodies, Joints};
 pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
 };
 pub use handle::{
-    CountsTurns, Driven, Force, HasAngle, HasDisplacement, Joint, PointHandle, StateHandle,
-    ValueHandle,
+    CountsTurns, Driven, Force, HasAngle, HasDisplacement, HasTwoAngles, Joint, PointHandle,
+    StateHandle, ValueHandle,
 };
 /// Makes a struct a part that mechanisms may have, once or several times, mirrored or turned:
 /// [`guide::parts`](crate::guide::parts).

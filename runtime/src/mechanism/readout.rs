@@ -20,6 +20,17 @@ pub struct AngleParts<S> {
 }
 
 impl<S: Scalar> AngleParts<S> {
+    /// That of a joint without an angle: zero, at rest.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            cosine: S::one(),
+            sine: S::zero(),
+            rate: S::zero(),
+            turns: None,
+        }
+    }
+
     /// The angle (rad): from `-pi` to `pi`, or, where turns are counted, the one of all angles with
     /// this sine and cosine that is nearest to the auxiliary variable.
     #[must_use]

@@ -12,7 +12,9 @@ use crate::math::scalar::Real;
 use crate::measure::reaction::Wrench;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::Evaluation;
-use crate::mechanism::handle::{BodyHandle, Driven, HasAngle, HasDisplacement, JointHandle};
+use crate::mechanism::handle::{
+    BodyHandle, Driven, HasAngle, HasDisplacement, HasTwoAngles, JointHandle,
+};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
 use crate::nonsmooth::efforts::Show;
@@ -193,6 +195,18 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
     pub fn angle_acceleration<J: HasAngle>(&self, joint: JointHandle<M, J>) -> Result<S, Fault> {
         let rates = &self.evaluation()?.rates;
         Ok(self.view.angle_acceleration(rates, joint))
+    }
+
+    /// The accelerations of both angles of a joint (rad/s^2), with the signs of [`View::angles`].
+    ///
+    /// # Errors
+    /// The fault of the evaluation.
+    pub fn angle_accelerations<J: HasTwoAngles>(
+        &self,
+        joint: JointHandle<M, J>,
+    ) -> Result<[S; 2], Fault> {
+        let rates = &self.evaluation()?.rates;
+        Ok(self.view.angle_accelerations(rates, joint))
     }
 
     /// The acceleration of the displacement of a joint (m/s^2), with the sign of

@@ -10,6 +10,7 @@ mod dense;
 mod driven;
 mod loads;
 mod messages;
+mod momentum;
 pub(crate) mod numbers;
 mod observer;
 #[cfg(feature = "recorder")]

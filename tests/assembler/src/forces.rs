@@ -37,6 +37,13 @@ pub enum Force {
         /// The force (N) or moment (N m).
         law: ForceLaw,
     },
+    /// `-damping w` on `j`, and the opposite on `i`, with the angular velocity of `j` against `i`.
+    Damper {
+        /// `i` and `j`.
+        between: [BodyId; 2],
+        /// N m s/rad.
+        damping: f64,
+    },
     /// A force at a point.
     AtPoint {
         /// The force (N), in the axes of the body on which it is fixed.
@@ -91,6 +98,12 @@ impl Force {
             damping,
             free: free_angle,
         }
+    }
+
+    /// A damper against the rotation of `j` against `i`.
+    #[must_use]
+    pub fn rotational_damper(between: [BodyId; 2], damping: f64) -> Self {
+        Self::Damper { between, damping }
     }
 
     /// A law of `(length, rate, time)` between a point of `i` and a point of `j`.
@@ -187,7 +200,7 @@ impl Force {
                 let value = law.at(along.value(at), along.rate(at), at.time);
                 Some((along, value))
             }
-            Self::AtPoint { .. } | Self::Moment { .. } => None,
+            Self::AtPoint { .. } | Self::Moment { .. } | Self::Damper { .. } => None,
         }
     }
 
@@ -209,6 +222,18 @@ impl Force {
                 ..
             } => along.gradient(at, -stiffness * (along.value(at) - free), &mut add),
             Self::Actuator { .. } => {}
+            Self::Damper { between, damping } => {
+                let against = relative_rate(at, *between);
+                for (body, sign) in between.iter().zip([1.0, -1.0]) {
+                    let frame = at.frame(*body);
+                    if let Some(column) = frame.rotation_column {
+                        add(
+                            column,
+                            &frame.rotation.tr_mul(&(against * (sign * damping))),
+                        );
+                    }
+                }
+            }
             Self::AtPoint { force, point } => point.point_gradient(at, &force.vector(at), &mut add),
             Self::Moment { moment, on } => {
                 let frame = at.frame(*on);
@@ -245,9 +270,21 @@ impl Force {
                 let frame = at.frame(*on);
                 moment.vector(at).dot(&(frame.rotation * frame.rate))
             }
+            Self::Damper { between, damping } => {
+                -damping * relative_rate(at, *between).norm_squared()
+            }
             Self::Spring { .. } | Self::Actuator { .. } => self
                 .driving(at)
                 .map_or(0.0, |(along, force)| force * along.rate(at)),
         }
     }
+}
+
+/// The angular velocity (rad/s, global axes) of the second body against the first.
+fn relative_rate(at: &Kinematics, between: [BodyId; 2]) -> Vector3<f64> {
+    let [i, j] = between.map(|body| {
+        let frame = at.frame(body);
+        frame.rotation * frame.rate
+    });
+    j - i
 }

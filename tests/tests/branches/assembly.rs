@@ -273,3 +273,135 @@ fn a_branch_point_on_the_way_is_said_by_its_joint() {
         assert_eq!(passed.is_some(), is_passed, "{angle}: {passed:?}");
     }
 }
+
+/// Two cranks of 0.5 m on a base of 1 m, upright, and two couplers of 0.65 m that meet above them.
+/// The other mechanisms here have one degree of freedom, where nothing is left to be held.
+#[derive(Clone, Copy, Mechanism)]
+struct FiveBar {
+    /// Of the second crank.
+    #[param]
+    mass: f64,
+    #[body(mass = 1.0, inertia = [0.02, 0.02, 0.02], position = [0.0, 0.25, 0.0])]
+    left: Body,
+    #[body(
+        mass = mass, inertia = [0.02 * mass, 0.02 * mass, 0.02 * mass], position = [1.0, 0.25, 0.0]
+    )]
+    right: Body,
+    #[body(mass = 1.0, inertia = [0.04, 0.04, 0.04], position = [0.25, 0.7, 0.0])]
+    left_coupler: Body,
+    #[body(mass = 1.0, inertia = [0.04, 0.04, 0.04], position = [0.75, 0.7, 0.0])]
+    right_coupler: Body,
+    #[joint(between = [ground, left], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    a: Revolute,
+    #[joint(between = [ground, right], point = [1.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    e: Revolute,
+    #[joint(between = [left, left_coupler], point = [0.0, 0.5, 0.0], axis = [0.0, 0.0, 1.0])]
+    b: Revolute,
+    #[joint(between = [right, right_coupler], point = [1.0, 0.5, 0.0], axis = [0.0, 0.0, 1.0])]
+    d: Cylindrical,
+    #[joint(between = [left_coupler, right_coupler], point = [0.5, 0.5 + sqrt(0.65 * 0.65 - 0.25), 0.0])]
+    pin: Spherical,
+    #[point(on = left_coupler, at = [0.5, 0.5 + sqrt(0.65 * 0.65 - 0.25), 0.0])]
+    top: Point,
+}
+
+/// Where the couplers meet, above the line of their feet.
+fn top(left: f64, right: f64) -> [f64; 2] {
+    let foot = |base: f64, angle: f64| [base - 0.5 * angle.sin(), 0.5 * angle.cos()];
+    let ([x1, y1], [x2, y2]) = (foot(0.0, left), foot(1.0, right));
+    let (dx, dy) = (0.5 * (x2 - x1), 0.5 * (y2 - y1));
+    let half = dx.hypot(dy);
+    let height = (0.65 * 0.65 - half * half).sqrt() / half;
+    [x1 + dx - height * dy, y1 + dy + height * dx]
+}
+
+#[test]
+fn joints_that_are_held_stay_and_the_others_follow() {
+    let h = FiveBar::HANDLES;
+    for mass in [1.0, 1e-6, 1e3] {
+        let bar = FiveBar::new(mass).expect("positive");
+        for (left, right) in [(0.5, 0.0), (-0.4, 0.0), (0.0, 0.0), (0.3, 0.6), (1.2, 0.9)] {
+            let mut state = bar.described_state::<f64>().expect("positive");
+            bar.set_angle(&mut state, h.a, left).expect("it carries");
+            bar.set_angle(&mut state, h.e, right).expect("it carries");
+            let mut free = state;
+            bar.assemble_holding(0.0, &mut state, (h.a, h.e))
+                .expect("in reach");
+            let view = bar.view(0.0, &state).expect("finite");
+            let found = [view.angle(h.a) - left, view.angle(h.e) - right];
+            assert!(
+                found.iter().all(|off| off.abs() < 1e-13),
+                "{left}, {right}: {found:?}"
+            );
+            let (place, [x, y]) = (view.position(h.top), top(left, right));
+            assert!(
+                (place.x - x).abs() < 1e-12 && (place.y - y).abs() < 1e-12,
+                "{place}"
+            );
+            assert!(view.violation() < 1e-24);
+            // What is as described is not held where nobody says so.
+            bar.assemble(0.0, &mut free).expect("in reach");
+            let moved = bar.view(0.0, &free).expect("finite").angle(h.e) - right;
+            let is_left = left != 0.0 && right == 0.0;
+            assert!(mass > 1.0 || (moved.abs() > 1e-3) == is_left, "{moved}");
+        }
+    }
+}
+
+/// What is not held is a guess: the couplers say on which side they meet.
+#[test]
+fn a_guess_of_the_others_says_which_branch() {
+    let (bar, h) = (FiveBar::new(1.0).expect("positive"), FiveBar::HANDLES);
+    let mut state = bar.described_state::<f64>().expect("positive");
+    bar.set_angle(&mut state, h.a, 0.2).expect("it carries");
+    // The described couplers lean inwards by acos(0.5 / 0.65); below, they hang by as much.
+    let lean = 2.0 * (0.5_f64 / 0.65).acos();
+    bar.set_angle(&mut state, h.b, -lean).expect("it carries");
+    let mut pose = FiveBar::pose(&state, h.right_coupler);
+    pose.position = [0.75, 0.3, 0.0].into();
+    let (sine, cosine) = (0.5 * lean).sin_cos();
+    pose.orientation = holonom::nalgebra::Quaternion::new(cosine, 0.0, 0.0, sine);
+    FiveBar::set_pose(&mut state, h.right_coupler, pose);
+    bar.assemble_holding(0.0, &mut state, [h.a, h.e])
+        .expect("in reach");
+    let view = bar.view(0.0, &state).expect("finite");
+    assert!((view.angle(h.a) - 0.2).abs() < 1e-13 && view.angle(h.e).abs() < 1e-13);
+    assert!(view.violation() < 1e-24 && view.position(h.top).y < 0.5);
+}
+
+#[test]
+fn what_cannot_be_held_is_refused_by_name() {
+    let (bar, h) = (FiveBar::new(1.0).expect("positive"), FiveBar::HANDLES);
+    let described = bar.described_state::<f64>().expect("positive");
+    let mut state = described;
+    let fault = bar
+        .assemble_holding(0.0, &mut state, h.pin)
+        .expect_err("it closes the loop");
+    assert!(
+        matches!(
+            fault,
+            Fault::Assembly(AssemblyFault::CarriesNothing { joint: "pin", .. })
+        ),
+        "{fault}"
+    );
+    // The couplers do not reach so far, and three angles are more than two freedoms.
+    for (held, left, coupler) in [(2, 1.5, 0.0), (3, 0.1, 0.2)] {
+        let mut state = described;
+        bar.set_angle(&mut state, h.a, left).expect("it carries");
+        bar.set_angle(&mut state, h.e, -left * f64::from(3 - held))
+            .expect("it carries");
+        bar.set_angle(&mut state, h.b, coupler).expect("it carries");
+        let given = state;
+        let fault = if held == 2 {
+            bar.assemble_holding(0.0, &mut state, [h.a, h.e])
+        } else {
+            bar.assemble_holding(0.0, &mut state, [h.a, h.b, h.e])
+        };
+        let fault = fault.expect_err("out of reach");
+        assert!(
+            matches!(fault, Fault::Assembly(AssemblyFault::WayEnds { .. })),
+            "{fault}"
+        );
+        assert_eq!(state, given);
+    }
+}

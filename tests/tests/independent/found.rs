@@ -64,6 +64,14 @@ where
             "{body:?}: {found}{wanted}"
         );
     }
+    let found = space.centre_of_mass_jacobian(&state, ..)? * v;
+    assert!((found - view.centre_of_mass_velocity(..)?).norm() < 1e-13);
+    for of in [bodies, &bodies[1..]] {
+        let found = space.momentum_matrix(&state, of)? * v;
+        assert!((found.fixed_rows::<3>(0) - view.linear_momentum(of)).norm() < 1e-13);
+        let wanted = view.angular_momentum_about_centre(of)?;
+        assert!((found.fixed_rows::<3>(3) - wanted).norm() < 1e-13);
+    }
     let kinetic = 0.5 * (space.mass(&state)? * v).dot(&v);
     assert!((kinetic - view.kinetic_energy()).abs() < 1e-12 * kinetic);
     let efforts = space.inverse(&state, rates)?;
@@ -89,7 +97,7 @@ fn bodies_behind_balls() -> Result<(), Fault> {
 /// A body on a hinge that is carried by one that floats.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(coordinates = "joints", kernels = [mass, inverse, jacobian])]
-struct Floating {
+pub(super) struct Floating {
     #[body(free, mass = 4.0, inertia = [0.3, 0.5, 0.4], position = [1.0, 2.0, 3.0])]
     base: Body,
     #[body(mass = 1.0, inertia = [0.1, 0.2, 0.15], position = [1.0, 2.6, 3.0])]
@@ -186,6 +194,8 @@ fn motions_count_in_the_order_of_the_definition() -> Result<(), Fault> {
     let bodies = space.bodies(&state);
     let view = sleeves.view(0.0, &bodies)?;
     assert!((view.angle(h.sleeve) - 0.1).abs() < 1e-15);
+    let [first, second] = view.angles(h.universal);
+    assert!((first - 0.5).abs() < 1e-15 && (second - 0.6).abs() < 1e-15);
     assert!((view.displacement(h.turned) - 0.4).abs() < 1e-15);
     Ok(())
 }

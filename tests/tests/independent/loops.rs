@@ -92,6 +92,21 @@ fn jacobians_of_loops() -> Result<(), Fault> {
             let rate = space.jacobian_rate(&state, body)?;
             assert!((difference - rate).norm() < 1e-8 * (1.0 + rate.norm()));
         }
+        // The centre of mass of all and of two, by differences of its places.
+        let velocity = space.centre_of_mass_jacobian(&state, ..)? * RATE;
+        let two = [h.crank, h.rod];
+        let of_two = space.centre_of_mass_jacobian(&state, two)? * RATE;
+        let centres = [-1e-5, 1e-5].map(|step| -> Result<_, Fault> {
+            let there = space.state_near(&state, [angle + RATE * step], [RATE])?;
+            let bodies = space.bodies(&there);
+            let view = crank.view(0.0, &bodies)?;
+            Ok((view.centre_of_mass(..)?, view.centre_of_mass(two)?))
+        });
+        let [before, after] = centres;
+        let (before, after) = (before?, after?);
+        assert!(((after.0 - before.0) / 2e-5 - velocity).norm() < 1e-8);
+        assert!(((after.1 - before.1) / 2e-5 - of_two).norm() < 1e-8);
+        assert!((view.centre_of_mass_velocity(two)? - of_two).norm() < 1e-14);
         // One degree of freedom: a mass that a force would feel.
         let along = space.jacobian(&state, h.slider)?[(0, 0)];
         let x = nalgebra::Vector3::new(2.0, 0.0, 0.0);

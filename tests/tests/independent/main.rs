@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+mod cardan;
 mod choice;
 mod continuation;
 mod counts;
@@ -11,6 +12,7 @@ mod found;
 mod identification;
 mod linear;
 mod loops;
+mod momenta;
 mod reference;
 mod regressor;
 mod regulator;

@@ -7,6 +7,7 @@ mod faults;
 mod flat;
 mod forces;
 mod inputs;
+mod inverse;
 mod kinematics;
 mod markers;
 mod observer;

@@ -70,6 +70,7 @@ pub(super) fn value(term: &Term) -> Option<f64> {
         }),
         Term::Product(a, b) => Some(value(a)? * value(b)?),
         Term::Function(function, inner) => value(inner).map(|x| function.of(x)),
+        Term::Direction(sine, cosine) => Some(value(sine)?.atan2(value(cosine)?)),
         _ => None,
     }
 }

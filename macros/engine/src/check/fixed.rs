@@ -2,11 +2,16 @@
 
 use crate::model::{Action, ElementDef, ParameterKind, Term};
 
-/// Whether a definition fixes a vector of its own on one of its bodies, or exerts a moment on it.
+/// Whether a definition fixes a vector of its own on one of its bodies, reads its angular velocity
+/// or exerts a moment on it.
 pub(super) fn turns(joint: &ElementDef, body: usize) -> bool {
     let moment = |action: &Action| matches!(action, Action::Moment { body: b, .. } if *b == body);
-    let onto = |term: &Term| matches!(term, Term::Onto(b, _) if *b == body);
-    joint.terms().any(|term| term.has(onto)) || joint.actions.iter().any(moment)
+    let turns = |term: &Term| match term {
+        Term::Onto(b, _) => *b == body,
+        Term::Spin { from, to } => *from == body || *to == body,
+        _ => false,
+    };
+    joint.terms().any(|term| term.has(turns)) || joint.actions.iter().any(moment)
 }
 
 /// The vector parameters that a definition fixes on one of its bodies.
@@ -24,6 +29,9 @@ pub(super) fn uses(joint: &ElementDef, body: usize) -> Vec<(usize, ParameterKind
     joint.terms().for_each(|term| term.visit(&mut note));
     if let Some(angle) = joint.angle {
         note(&Term::Angle(angle));
+    }
+    for (body, parameter) in joint.angles.iter().flatten().copied().enumerate() {
+        note(&Term::Fixed { body, parameter });
     }
     found.sort_unstable();
     found.dedup();

@@ -2,16 +2,33 @@
 
 use syn::{Expr, ExprCall};
 
-use super::expression::{Context, Shaped};
+use super::expression::{Context, Shaped, value};
 use super::switching::SWITCHING;
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::{ElementKind, Function, ParameterKind, Term, Turn};
 use crate::syntax::ungroup;
 
 /// The functions of vectors and of states, beside those of numbers.
-const FUNCTIONS: [&str; 8] = [
-    "dot", "cross", "squared", "length", "angle", "fixed", "initial", "rate",
+const FUNCTIONS: [&str; 10] = [
+    "dot",
+    "cross",
+    "squared",
+    "length",
+    "angle",
+    "fixed",
+    "initial",
+    "rate",
+    "angular_velocity",
+    "atan2",
 ];
+
+impl Function {
+    /// Why a number has no value of a function of this name; `None` where it has one.
+    pub(super) fn refusal(self, name: &str, x: f64) -> Option<String> {
+        let is_beyond = matches!(self, Self::ArcSine | Self::ArcCosine) && x.abs() > 1.0;
+        is_beyond.then(|| format!("`{name}` takes a number from -1 to 1; this is {x}"))
+    }
+}
 
 impl Context<'_> {
     pub(super) fn call(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
@@ -25,8 +42,12 @@ impl Context<'_> {
         }
         if let Some(function) = Function::named(&name) {
             let [argument] = self.arguments::<1>(call, "1 number", faults)?;
-            let argument = self.argument(&name, argument, faults)?;
-            return Some(Shaped::scalar(Term::Function(function, Box::new(argument))));
+            let term = self.argument(&name, argument, faults)?;
+            if let Some(refusal) = value(&term).and_then(|value| function.refusal(&name, value)) {
+                faults.at(argument, refusal);
+                return None;
+            }
+            return Some(Shaped::scalar(Term::Function(function, Box::new(term))));
         }
         match name.as_str() {
             "dot" | "cross" => {
@@ -51,20 +72,8 @@ impl Context<'_> {
                 Some(squared)
             }
             "angle" => self.angle(call, faults),
-            "fixed" => {
-                let [body, vector] = self.arguments::<2>(call, "a body and a vector", faults)?;
-                let (body, vector) = (
-                    self.body(body, faults),
-                    self.of_vectors(&name, vector, faults),
-                );
-                let (body, vector) = (body?, vector?);
-                self.is_of_configuration(call, &vector, faults)?;
-                let onto = |term| Term::Onto(body, Box::new(term));
-                Some(Shaped {
-                    vector: true,
-                    terms: vector.terms.into_iter().map(onto).collect(),
-                })
-            }
+            "atan2" => self.direction_of(call, faults),
+            "fixed" => self.fixed(call, faults),
             "initial" => {
                 let [argument] = self.arguments::<1>(call, "1 number", faults)?;
                 let argument = self.expression(argument, faults)?;
@@ -82,26 +91,8 @@ impl Context<'_> {
                     terms: argument.terms.into_iter().map(initial).collect(),
                 })
             }
-            "rate" => {
-                let [argument] = self.arguments::<1>(call, "1 number", faults)?;
-                let argument = self.argument(&name, argument, faults);
-                if self.kind == ElementKind::Joint {
-                    faults.at(
-                        call,
-                        "the equations of a joint speak of positions and of the time; `rate` belongs in `force!`",
-                    );
-                    return None;
-                }
-                let argument = argument?;
-                if argument.has(|term| matches!(term, Term::Rate(_))) {
-                    faults.at(
-                        call,
-                        "there is no rate of a rate: accelerations are what is solved for",
-                    );
-                    return None;
-                }
-                Some(Shaped::scalar(Term::Rate(Box::new(argument))))
-            }
+            "rate" => self.rate(call, faults),
+            "angular_velocity" => self.angular_velocity(call, faults),
             _ => {
                 let laws = self
                     .parameters
@@ -190,6 +181,74 @@ impl Context<'_> {
         Some(Shaped::scalar(Term::Angle(turn)))
     }
 
+    fn direction_of(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
+        let [sine, cosine] = self.arguments::<2>(call, "2 numbers", faults)?;
+        let (sine, cosine) = (
+            self.argument("atan2", sine, faults),
+            self.argument("atan2", cosine, faults),
+        );
+        let (sine, cosine) = (Box::new(sine?), Box::new(cosine?));
+        Some(Shaped::scalar(Term::Direction(sine, cosine)))
+    }
+
+    fn fixed(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
+        let [body, vector] = self.arguments::<2>(call, "a body and a vector", faults)?;
+        let (body, vector) = (
+            self.body(body, faults),
+            self.of_vectors("fixed", vector, faults),
+        );
+        let (body, vector) = (body?, vector?);
+        self.is_of_configuration(call, &vector, faults)?;
+        let onto = |term| Term::Onto(body, Box::new(term));
+        Some(Shaped {
+            vector: true,
+            terms: vector.terms.into_iter().map(onto).collect(),
+        })
+    }
+
+    fn rate(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
+        let [argument] = self.arguments::<1>(call, "1 number", faults)?;
+        let argument = self.argument("rate", argument, faults);
+        if self.kind == ElementKind::Joint {
+            faults.at(
+                call,
+                "the equations of a joint speak of positions and of the time; `rate` belongs in `force!`",
+            );
+            return None;
+        }
+        let argument = argument?;
+        if argument.has(Term::is_rate) {
+            faults.at(
+                call,
+                "there is no rate of a rate: accelerations are what is solved for",
+            );
+            return None;
+        }
+        Some(Shaped::scalar(Term::Rate(Box::new(argument))))
+    }
+
+    fn angular_velocity(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
+        let [from, to] =
+            self.arguments::<2>(call, "two bodies, as in `angular_velocity(i, j)`", faults)?;
+        let (from, to) = (self.body(from, faults), self.body(to, faults));
+        if self.kind == ElementKind::Joint {
+            faults.at(
+                call,
+                "the equations of a joint speak of positions and of the time; `angular_velocity` belongs in `force!`",
+            );
+            return None;
+        }
+        let (from, to) = (from?, to?);
+        if from == to {
+            faults.at(
+                call,
+                "the angular velocity of a body against itself is zero",
+            );
+            return None;
+        }
+        Some(Shaped::vector(Term::Spin { from, to }))
+    }
+
     fn law(&self, call: &ExprCall, parameter: usize, faults: &mut Faults) -> Option<Shaped> {
         let names = &self.parameters[parameter].arguments;
         if call.args.len() != names.len() {
@@ -221,7 +280,7 @@ impl Context<'_> {
         argument: &Shaped,
         faults: &mut Faults,
     ) -> Option<()> {
-        let moving = |term: &Term| matches!(term, Term::Time | Term::Rate(_) | Term::Law { .. });
+        let moving = |term: &Term| term.is_rate() || matches!(term, Term::Time | Term::Law { .. });
         if argument.terms.iter().any(|term| term.has(moving)) {
             let name = code(&call.func);
             faults.at(

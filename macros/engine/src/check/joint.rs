@@ -7,7 +7,7 @@ use quote::ToTokens;
 use syn::spanned::Spanned;
 
 use super::expression::{Context, Shaped, extent, too_large};
-use super::motion::must_count;
+use super::motion::{must_count, must_turn};
 use super::moves;
 use crate::diag::{Faults, did_you_mean, list};
 use crate::model::{
@@ -78,6 +78,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
         places: Vec::new(),
         actions: Vec::new(),
         angle: None,
+        angles: None,
         displacement: None,
         requirements: Vec::new(),
         motions: None,
@@ -91,11 +92,13 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
         reader.statement(statement, &mut fresh);
     }
     reader.must_count(&mut fresh);
+    reader.must_turn(&mut fresh);
     let Reader {
         rows,
         places,
         actions,
         angle,
+        angles,
         displacement,
         requirements,
         motions,
@@ -135,6 +138,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
             rows,
             actions,
             angle,
+            angles,
             displacement,
             requirements,
             motions,
@@ -159,7 +163,7 @@ fn turns<'t>(terms: impl Iterator<Item = &'t Term>) -> Vec<Turn> {
         match term {
             Term::Angle(turn) if !turns.contains(turn) => turns.push(*turn),
             Term::Sum(terms) => terms.iter().for_each(|(_, term)| find(term, turns)),
-            Term::Product(a, b) | Term::Dot(a, b) | Term::Cross(a, b) => {
+            Term::Product(a, b) | Term::Dot(a, b) | Term::Cross(a, b) | Term::Direction(a, b) => {
                 find(a, turns);
                 find(b, turns);
             }
@@ -188,6 +192,7 @@ struct Reader<'a> {
     places: Vec<Span>,
     actions: Vec<Action>,
     angle: Option<Turn>,
+    angles: Option<[usize; 2]>,
     displacement: Option<Term>,
     requirements: Vec<Term>,
     motions: Option<Vec<Motion>>,
@@ -263,7 +268,7 @@ impl Reader<'_> {
                     self.places.resize(self.rows.len(), expr.span());
                 }
             }
-            Statement::Angle { keyword, axis } => self.read_angle(keyword, axis, faults),
+            Statement::Angle { keyword, axes } => self.read_angle(keyword, axes, faults),
             Statement::Displacement(keyword, expr) => {
                 let term = self.context.scalar(expr, faults);
                 if self.displacement.is_some() {
@@ -361,10 +366,7 @@ impl Reader<'_> {
         }
         let Some(term) = term else { return };
         let not_of_places = term.has(|term| {
-            matches!(
-                term,
-                Term::Rate(_) | Term::Time | Term::Law { .. } | Term::Angle(_)
-            )
+            term.is_rate() || matches!(term, Term::Time | Term::Law { .. } | Term::Angle(_))
         });
         if not_of_places {
             faults.at(
@@ -466,8 +468,18 @@ impl Reader<'_> {
         }
     }
 
-    fn read_angle(&mut self, keyword: &Ident, axis: &Ident, faults: &mut Faults) {
-        if self.angle.is_some() {
+    /// Refuses two angles that are not those of the joint's motion, once that is known.
+    fn must_turn(&self, faults: &mut Faults) {
+        let Some(angles) = self.angles else { return };
+        for statement in &self.syntax.statements {
+            if let Statement::Angle { axes, .. } = statement {
+                must_turn(angles, self.motions.as_deref(), axes, faults);
+            }
+        }
+    }
+
+    fn read_angle(&mut self, keyword: &Ident, axes: &[Ident], faults: &mut Faults) {
+        if self.angle.is_some() || self.angles.is_some() {
             faults.at(keyword, "a joint has one angle; this is the second");
         } else if self.syntax.bodies.len() != 2 {
             let (name, count) = (&self.syntax.name, self.syntax.bodies.len());
@@ -476,15 +488,22 @@ impl Reader<'_> {
                 format!("an angle needs two bodies; `{name}` has {count}"),
             );
         } else if self.joint_only(keyword, "an angle to read", faults) {
-            let axis = self.context.axis(axis, faults);
-            self.angle = axis.map(Turn::of_joint);
+            let places: Vec<Option<usize>> = axes
+                .iter()
+                .map(|axis| self.context.axis(axis, faults))
+                .collect();
+            match places[..] {
+                [Some(axis)] => self.angle = Some(Turn::of_joint(axis)),
+                [Some(first), Some(second)] => self.angles = Some([first, second]),
+                _ => {}
+            }
         }
     }
 }
 
 /// Refuses a rate where it has no place.
 fn has_rate(term: &Term, at: impl ToTokens, message: &str, faults: &mut Faults) -> bool {
-    let has = term.has(|term| matches!(term, Term::Rate(_)));
+    let has = term.has(Term::is_rate);
     if has {
         faults.at(at, message);
     }
@@ -496,7 +515,7 @@ fn is_constant(term: &Term) -> bool {
     match term {
         Term::Number(_) | Term::Scalar(_) | Term::Initial(_) => true,
         Term::Sum(terms) => terms.iter().all(|(_, term)| is_constant(term)),
-        Term::Product(a, b) => is_constant(a) && is_constant(b),
+        Term::Product(a, b) | Term::Direction(a, b) => is_constant(a) && is_constant(b),
         Term::Function(_, term) => is_constant(term),
         _ => false,
     }

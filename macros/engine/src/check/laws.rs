@@ -11,7 +11,7 @@ use super::readings::Readings;
 use super::switching::{SWITCHING, is_switching};
 use super::tables::Called;
 use crate::diag::{Faults, code, did_you_mean, list};
-use crate::model::{Curve, Function, LawTerm};
+use crate::model::{Curve, Function, LawTerm, Number};
 use crate::syntax::ungroup;
 
 /// Reads a law.
@@ -149,6 +149,15 @@ impl LawReader<'_, '_, '_> {
         if let Some(switching) = switching.find(|(known, _)| *known == name) {
             return self.switch(call, switching, faults);
         }
+        if name == "atan2" {
+            let [sine, cosine] = call.args.iter().collect::<Vec<_>>()[..] else {
+                let found = call.args.len();
+                faults.at(call, format!("`{name}` takes 2 numbers; found {found}"));
+                return None;
+            };
+            let (sine, cosine) = (self.read(sine, faults), self.read(cosine, faults));
+            return Some(LawTerm::Direction(Box::new(sine?), Box::new(cosine?)));
+        }
         let function = match Function::named(&name) {
             Some(function) => Some(function),
             None => match self.numbers.spline(&call.func, faults) {
@@ -183,13 +192,22 @@ impl LawReader<'_, '_, '_> {
             faults.at(call, format!("`{name}` takes 1 number; found {found}"));
             return None;
         };
-        let argument = self.read(argument, faults)?;
-        Some(LawTerm::Function(function, Box::new(argument)))
+        let term = self.read(argument, faults)?;
+        if let LawTerm::Number(Number::Literal(value)) = term
+            && let Some(refusal) = function.refusal(&name, value)
+        {
+            faults.at(argument, refusal);
+            return None;
+        }
+        Some(LawTerm::Function(function, Box::new(term)))
     }
 
     /// The functions that a law may call.
     fn functions(&self) -> Vec<&'static str> {
-        let named = Function::NAMED.map(|(name, _)| name).into_iter();
+        let named = Function::NAMED
+            .map(|(name, _)| name)
+            .into_iter()
+            .chain(["atan2"]);
         let switching = SWITCHING.map(|(name, _)| name).into_iter();
         let may_switch = self.no_switches.is_none();
         named.chain(switching.filter(|_| may_switch)).collect()
@@ -213,7 +231,10 @@ impl LawReader<'_, '_, '_> {
             Expr::Binary(binary) => self.varies(&binary.left) || self.varies(&binary.right),
             Expr::Call(call) => {
                 call.args.iter().any(|argument| self.varies(argument))
-                    || matches!(code(&call.func).as_str(), "smooth_step")
+                    || matches!(
+                        code(&call.func).as_str(),
+                        "smooth_step" | "asin" | "acos" | "atan" | "atan2"
+                    )
             }
             other => self.mentioned(other.to_token_stream()),
         }

@@ -74,6 +74,7 @@ impl Choice {
             // Axis, normal and binormal are right-handed in either world.
             Term::Normal { parameter, .. } => self.direction(*parameter).turned_round(),
             Term::Angle(turn) => self.direction(turn.axis).turned_round(),
+            Term::Spin { .. } => Parity::Odd,
             Term::Onto(_, inner) | Term::Initial(inner) | Term::Rate(inner) => self.of(inner),
             Term::Sum(terms) => {
                 let parities = terms.iter().map(|(_, term)| self.of(term));
@@ -82,10 +83,21 @@ impl Choice {
             Term::Product(a, b) | Term::Dot(a, b) => self.of(a).product(self.of(b)),
             Term::Cross(a, b) => self.of(a).product(self.of(b)).turned_round(),
             Term::Function(function, inner) => match (self.of(inner), function) {
-                (Parity::Odd, Function::Sine | Function::Reciprocal) => Parity::Odd,
+                (
+                    Parity::Odd,
+                    Function::Sine
+                    | Function::ArcSine
+                    | Function::ArcTangent
+                    | Function::Reciprocal,
+                ) => Parity::Odd,
                 (Parity::Odd, Function::Cosine) => Parity::Even,
                 (Parity::Odd | Parity::Mixed, _) => Parity::Mixed,
                 (Parity::Any | Parity::Even, _) => Parity::Even,
+            },
+            Term::Direction(sine, cosine) => match (self.of(sine), self.of(cosine)) {
+                (Parity::Odd, Parity::Even | Parity::Any) => Parity::Odd,
+                (Parity::Even | Parity::Any, Parity::Even | Parity::Any) => Parity::Even,
+                _ => Parity::Mixed,
             },
             Term::Law { arguments, .. } => self.if_all_stay(arguments.iter()),
         }

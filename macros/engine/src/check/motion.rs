@@ -179,6 +179,32 @@ fn ident(expr: &Expr) -> Option<&Ident> {
     }
 }
 
+/// Refuses two angles, about axes by their places and as they are written, that are not those of
+/// the two turns of a motion.
+pub(super) fn must_turn(
+    angles: [usize; 2],
+    motions: Option<&[Motion]>,
+    written: &[Ident],
+    faults: &mut Faults,
+) {
+    let turns = |motion: &Motion, wanted: usize| match motion {
+        Motion::Turn { axis, .. } => axis.normal.is_none() && axis.parameter == wanted,
+        _ => false,
+    };
+    let are_turns = match motions {
+        Some([first, second]) => turns(first, angles[0]) && turns(second, angles[1]),
+        _ => false,
+    };
+    if let (false, [first, second]) = (are_turns, written) {
+        faults.at(
+            first,
+            format!(
+                "two angles are those of two turns, of which the first carries the second; write `motion turn {first} at .., turn {second} at ..`"
+            ),
+        );
+    }
+}
+
 /// Refuses a screw whose turns no equation counts: its displacement depends on them.
 pub(super) fn must_count(
     motions: &[Motion],

@@ -47,8 +47,10 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&ElementDef>, facade: &TokenStre
             }
         },
         ElementKind::Joint => {
-            let angle = has(|s| matches!(s, Statement::Angle { .. }));
+            let angle = has(|s| matches!(s, Statement::Angle { axes, .. } if axes.len() == 1));
             let angle = marker(angle, quote!(HasAngle));
+            let angles = has(|s| matches!(s, Statement::Angle { axes, .. } if axes.len() == 2));
+            let angles = marker(angles, quote!(HasTwoAngles));
             let displacement = has(|s| matches!(s, Statement::Displacement(..)));
             let displacement = marker(displacement, quote!(HasDisplacement));
             let driven = has(|s| matches!(s, Statement::Drive(..))).then(|| {
@@ -67,6 +69,7 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&ElementDef>, facade: &TokenStre
                     const FINGERPRINT: ::core::primitive::u64 = #fingerprint;
                 }
                 #angle
+                #angles
                 #displacement
                 #driven
             }
@@ -134,6 +137,15 @@ fn documentation(joint: &ElementDef) -> TokenStream {
         lines.push(format!(
             "The angle of the joint is that of `{j}` against `{i}`, right-handed about `{axis}`, zero in the reference \
              configuration{turns}."
+        ));
+    }
+    if let Some(angles) = joint.angles {
+        let [first, second] = angles.map(|axis| &joint.parameters[axis].name);
+        let (i, j) = (&joint.bodies[0], &joint.bodies[1]);
+        lines.push(String::new());
+        lines.push(format!(
+            "The joint has two angles, of `{j}` against `{i}`: right-handed about `{first}` of `{i}`, then about `{second}` of `{j}`, \
+             zero in the reference configuration, from `-pi` to `pi`."
         ));
     }
     if !joint.requirements.is_empty() {

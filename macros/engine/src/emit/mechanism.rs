@@ -205,6 +205,7 @@ impl Writer<'_> {
         tokens.extend(self.markers());
         tokens.extend(self.named_points());
         tokens.extend(self.shapes());
+        tokens.extend(self.two_angles());
         tokens.extend(self.displacements());
         tokens.extend(self.sides());
         tokens.extend(self.rewrap());

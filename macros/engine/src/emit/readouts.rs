@@ -69,6 +69,50 @@ impl Writer<'_> {
         }
     }
 
+    /// Nothing where no joint has two angles: the trait knows that.
+    pub(super) fn two_angles(&mut self) -> TokenStream {
+        let facade = self.facade;
+        let (constants, state, joint) = (local("constants"), local("state"), local("joint"));
+        let unpack = Self::unpack();
+        let mut arms = TokenStream::new();
+        for (place, kernel) in &self.kernels.readouts.two_angles {
+            let StraightLine {
+                statements,
+                outputs,
+            } = self.line(kernel);
+            let angles = outputs.chunks_exact(3).map(|angle| {
+                let (cosine, sine, rate) = (&angle[0], &angle[1], &angle[2]);
+                quote! {
+                    #facade::__private::AngleParts {
+                        cosine: #cosine, sine: #sine, rate: #rate, turns: ::core::option::Option::None,
+                    }
+                }
+            });
+            arms.extend(quote! {
+                #place => {
+                    #statements
+                    [#(#angles),*]
+                }
+            });
+        }
+        if arms.is_empty() {
+            return arms;
+        }
+        quote! {
+            fn joint_angles<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #state: &Self::State<__S>,
+                #joint: usize,
+            ) -> [#facade::__private::AngleParts<__S>; 2] {
+                #unpack
+                match #joint {
+                    #arms
+                    _ => [#facade::__private::AngleParts::none(); 2],
+                }
+            }
+        }
+    }
+
     pub(super) fn displacements(&mut self) -> TokenStream {
         let facade = self.facade;
         let (constants, time, state, joint) = (

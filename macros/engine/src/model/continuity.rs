@@ -1,6 +1,6 @@
 //! Whether a law that switches is continuous there: it then has a value between its two sides.
 
-use super::joint::Function;
+use super::function::Function;
 use super::law::LawTerm;
 use super::number::Number;
 
@@ -58,9 +58,13 @@ impl LawTerm {
                     a.vanishes_with(of) && b.is_bounded() || b.vanishes_with(of) && a.is_bounded()
                 }
                 Self::Sum(terms) => terms.iter().all(|(_, term)| term.vanishes_with(of)),
-                Self::Function(Function::Sine | Function::SquareRoot, inner) => {
-                    inner.vanishes_with(of)
-                }
+                Self::Function(
+                    Function::Sine
+                    | Function::ArcSine
+                    | Function::ArcTangent
+                    | Function::SquareRoot,
+                    inner,
+                ) => inner.vanishes_with(of),
                 Self::Select(_, parts) => parts.iter().all(|part| part.vanishes_with(of)),
                 _ => false,
             }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Span};
 
+use super::function::Function;
 use super::motion::Motion;
 
 /// What a parameter of a joint is.
@@ -79,80 +80,6 @@ pub struct Parameter {
     pub default: Option<Term>,
 }
 
-/// A function of one number, with two derivatives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Function {
-    /// `1 / x`.
-    Reciprocal,
-    /// The square root.
-    SquareRoot,
-    /// The sine of an angle in radians.
-    Sine,
-    /// The cosine of an angle in radians.
-    Cosine,
-    /// The exponential function.
-    Exponential,
-    /// 0 below 0, 1 above 1, `6 x^5 - 15 x^4 + 10 x^3` between: twice continuously differentiable.
-    SmoothStep,
-    /// A spline, or a derivative of it.
-    Curve(Curve),
-}
-
-/// A spline by its place in the model, and which derivative of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Curve {
-    /// The place in [`Model::splines`](super::Model::splines).
-    pub spline: u32,
-    /// 0 for the value, at most 2.
-    pub derivative: u8,
-}
-
-impl Curve {
-    /// The next derivative.
-    #[must_use]
-    pub const fn derived(self) -> Self {
-        Self {
-            derivative: self.derivative + 1,
-            ..self
-        }
-    }
-}
-
-impl Function {
-    /// The functions that have a name in the language.
-    pub const NAMED: [(&'static str, Self); 5] = [
-        ("sqrt", Self::SquareRoot),
-        ("sin", Self::Sine),
-        ("cos", Self::Cosine),
-        ("exp", Self::Exponential),
-        ("smooth_step", Self::SmoothStep),
-    ];
-
-    /// The value of the function; NaN of a spline, whose table the macro does not see.
-    #[must_use]
-    pub fn of(self, x: f64) -> f64 {
-        match self {
-            Self::Reciprocal => x.recip(),
-            Self::SquareRoot => x.sqrt(),
-            Self::Sine => x.sin(),
-            Self::Cosine => x.cos(),
-            Self::Exponential => x.exp(),
-            Self::SmoothStep => {
-                let x = x.clamp(0.0, 1.0);
-                x * x * x * (x * (6.0 * x - 15.0) + 10.0)
-            }
-            Self::Curve(_) => f64::NAN,
-        }
-    }
-
-    /// The function of a name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        let known = Self::NAMED.iter().find(|(known, _)| *known == name);
-        known.map(|(_, function)| *function)
-    }
-}
-
 /// An expression of a definition; bodies and parameters by their places. Shapes agree.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Term {
@@ -201,12 +128,21 @@ pub enum Term {
     Cross(Box<Term>, Box<Term>),
     /// A function of a scalar.
     Function(Function, Box<Term>),
+    /// The angle of a sine (first) and a cosine, times any positive number, from `-pi` to `pi`.
+    Direction(Box<Term>, Box<Term>),
     /// The angle of a body against another about an axis, over many turns.
     Angle(Turn),
     /// A scalar as it is in the reference configuration.
     Initial(Box<Term>),
     /// The time derivative of a scalar.
     Rate(Box<Term>),
+    /// The angular velocity of a body against another.
+    Spin {
+        /// The place of the body that it is measured from.
+        from: usize,
+        /// The place of the body that turns.
+        to: usize,
+    },
     /// The value of a law.
     Law {
         /// The place of the parameter.
@@ -251,10 +187,13 @@ impl Term {
             | Self::Fixed { .. }
             | Self::Normal { .. }
             | Self::Origin(_)
+            | Self::Spin { .. }
             | Self::Angle(_) => Vec::new(),
             Self::Components(components) => components.iter().map(|term| &**term).collect(),
             Self::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),
-            Self::Product(a, b) | Self::Dot(a, b) | Self::Cross(a, b) => vec![a, b],
+            Self::Product(a, b) | Self::Dot(a, b) | Self::Cross(a, b) | Self::Direction(a, b) => {
+                vec![a, b]
+            }
             Self::Onto(_, term)
             | Self::Function(_, term)
             | Self::Initial(term)
@@ -279,6 +218,7 @@ impl Term {
             (Self::Scalar(parameter) | Self::Law { parameter, .. }, _) => named(*parameter, &parts),
             (Self::Product(..) | Self::Dot(..) | Self::Cross(..), [a, b]) => a.product(*b),
             (Self::Function(..) | Self::Rate(_), [inner]) => inner.function(),
+            (Self::Direction(..), _) => Extent::sum(parts).function(),
             // What they hold is a constant.
             (Self::Onto(..) | Self::Initial(_), [inner]) => Extent {
                 first: 1.0,
@@ -298,10 +238,17 @@ impl Term {
             | Self::Normal { .. }
             | Self::Origin(_)
             | Self::Onto(..)
+            | Self::Spin { .. }
             | Self::Angle(_) => true,
             Self::Initial(_) => false,
             _ => self.parts().into_iter().any(Self::moves),
         }
+    }
+
+    /// Whether it is a rate itself, which has no derivative.
+    #[must_use]
+    pub const fn is_rate(&self) -> bool {
+        matches!(self, Self::Rate(_) | Self::Spin { .. })
     }
 
     /// Whether something in it fulfils a condition.
@@ -493,6 +440,9 @@ pub struct ElementDef {
     pub actions: Vec<Action>,
     /// The angle that can be read, of its second body against its first.
     pub angle: Option<Turn>,
+    /// The axes of the two angles that can be read, in their order: `None` but for a joint of two
+    /// bodies that leaves the turns about them, the second carried by the first.
+    pub angles: Option<[usize; 2]>,
     /// The displacement that can be read.
     pub displacement: Option<Term>,
     /// What is positive on the side that is meant, of the configurations that satisfy its

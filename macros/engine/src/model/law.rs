@@ -1,6 +1,7 @@
 //! Laws, and expressions in them whose sign decides.
 
-use super::joint::{Extent, Function, Term};
+use super::function::Function;
+use super::joint::{Extent, Term};
 use super::name::Name;
 use super::number::Number;
 
@@ -19,6 +20,8 @@ pub enum LawTerm {
     Product(Box<LawTerm>, Box<LawTerm>),
     /// A function.
     Function(Function, Box<LawTerm>),
+    /// The angle of a sine (first) and a cosine, times any positive number, from `-pi` to `pi`.
+    Direction(Box<LawTerm>, Box<LawTerm>),
     /// A state of the user's own, by its place.
     State(usize),
     /// What is read of a joint, or behind the joints of a force: in rates of states alone.
@@ -46,7 +49,7 @@ impl LawTerm {
             Self::Sum(terms) => Extent::sum(terms.iter().map(|(_, term)| term.extent(arguments))),
             Self::Product(a, b) => a.extent(arguments).product(b.extent(arguments)),
             Self::Function(_, inner) => inner.extent(arguments).function(),
-            Self::Side(_) | Self::Select(..) => {
+            Self::Direction(..) | Self::Side(_) | Self::Select(..) => {
                 let parts = self.parts().into_iter();
                 Extent::sum(parts.map(|part| part.extent(arguments))).function()
             }
@@ -137,7 +140,7 @@ impl LawTerm {
             | Self::State(_)
             | Self::Reading { .. } => Vec::new(),
             Self::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),
-            Self::Product(a, b) => vec![a, b],
+            Self::Product(a, b) | Self::Direction(a, b) => vec![a, b],
             Self::Function(_, inner) => vec![inner],
             Self::Side(switching) => vec![&switching.of],
             Self::Select(switching, parts) => {

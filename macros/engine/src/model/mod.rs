@@ -5,6 +5,7 @@ mod asked;
 pub mod comparison;
 mod continuity;
 mod counted;
+pub mod function;
 pub mod inertia;
 pub mod joint;
 pub mod law;
@@ -19,9 +20,9 @@ pub mod value;
 
 pub use asked::Asked;
 pub use comparison::Comparison;
+pub use function::{Curve, Function};
 pub use joint::{
-    Action, Curve, ElementDef, ElementKind, Extent, Function, Parameter, ParameterKind, Row, Term,
-    Turn,
+    Action, ElementDef, ElementKind, Extent, Parameter, ParameterKind, Row, Term, Turn,
 };
 pub use law::{LawTerm, Switch, Switching};
 pub use mechanism::{

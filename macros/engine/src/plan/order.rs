@@ -490,6 +490,7 @@ fn prescribed(scalar: &ScalarExpr, body: usize) -> Option<(Triple, Option<usize>
         | ScalarExpr::Setpoint(_)
         | ScalarExpr::Function(..)
         | ScalarExpr::Angle(_)
+        | ScalarExpr::Direction(_)
         | ScalarExpr::Rate(_)
         | ScalarExpr::Side { .. }
         | ScalarExpr::Select { .. }

@@ -5,9 +5,11 @@ use crate::model::mechanism::Counter;
 use crate::model::{BodyKind, Model, ParameterKind};
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::equations::{Kernel, with_scene};
+use crate::symbolic::expression::VectorExpr;
 use crate::symbolic::fixed::{point_on, triple};
 use crate::symbolic::motion::Gradient;
 use crate::symbolic::scene::Scene;
+use crate::symbolic::start::on_body;
 use crate::symbolic::vector::{Frame, Triple, VectorId};
 
 /// Kernels of what can be read, by the place of joint or force.
@@ -16,6 +18,8 @@ pub struct Readouts {
     /// Cosine, sine and rate of the angle of each joint that has one, and the auxiliary variable
     /// that counts its turns.
     pub angles: Vec<(usize, Kernel)>,
+    /// Cosine, sine and rate of both angles of each joint that has two.
+    pub two_angles: Vec<(usize, Kernel)>,
     /// Value and rate of the displacement of each joint that has one.
     pub displacements: Vec<(usize, Kernel)>,
     /// What is positive on the side that is meant, of each joint that says so.
@@ -54,6 +58,7 @@ impl Readouts {
     pub fn new(scene: &Scene, model: &Model) -> Self {
         Self {
             angles: angles(scene, model),
+            two_angles: two_angles(scene, model),
             displacements: displacements(scene, model),
             sides: sides(scene, model),
             points: points(scene, model),
@@ -104,6 +109,63 @@ fn angles(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
                 let counted = space.arena.input(Input::Coordinate(place as u32));
                 space.arena.mul(sign, counted)
             }));
+            outputs
+        });
+        angles.push((place, kernel));
+    }
+    angles
+}
+
+/// The angles of the turns about `u` of the first body and `v` of the second, which the first turn
+/// carries. With the copies `V` of `v` on the first body and `U` of `u` on the second:
+/// `cosine = V . v - (u . V) (u . v)`, `sine = (u x V) . v` of the first, `cosine = u . U - (v . u)
+/// (v . U)`, `sine = (v x u) . U` of the second. Rates `a`, `b` are those of the relative angular
+/// velocity `w = a u + b v`, with the constant `g = u . V = u . v`: `a = (w . u - g w . v) / (1 -
+/// g^2)`, `b` likewise.
+fn two_angles(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
+    let mut angles = Vec::new();
+    for (place, joint) in model.joints.iter().enumerate() {
+        let Some(axes) = model.definition(joint).angles else {
+            continue;
+        };
+        let kernel = with_scene(scene, |scene| {
+            let bodies = [joint.bodies[0], joint.bodies[1]];
+            let mut copy = |of: usize, on: usize| {
+                let copies = scene.copies[place][axes[of]].as_ref();
+                let vector = copies.expect("the axis of an angle has copies").vector[of];
+                let vector = VectorExpr::Fixed(bodies[of], vector);
+                let here = on_body(&mut scene.space.arena, model, &vector, bodies[on]);
+                let frame = bodies[on].map_or(Frame::Global, Frame::Body);
+                scene.space.native(frame, here)
+            };
+            let [u, v_on_first] = [copy(0, 0), copy(1, 0)];
+            let [u_on_second, v] = [copy(0, 1), copy(1, 1)];
+            let motion = &scene.motion;
+            let space = &mut scene.space;
+            let spin = VectorExpr::Spin(bodies).value(space, motion);
+            let along = [space.dot(u, spin), space.dot(v, spin)];
+            let g = space.dot(u, v_on_first);
+            let across = {
+                let square = space.arena.square(g);
+                let rest = space.arena.sub(Arena::ONE, square);
+                space.arena.reciprocal(rest)
+            };
+            let mut outputs = Vec::new();
+            let turns = [(u, v_on_first, v), (v, u, u_on_second)];
+            for (k, (axis, from, to)) in turns.into_iter().enumerate() {
+                let whole = space.dot(from, to);
+                let beside = [space.dot(axis, from), space.dot(axis, to)];
+                let arena = &mut space.arena;
+                let beside = arena.mul(beside[0], beside[1]);
+                let cosine = arena.sub(whole, beside);
+                let normal = space.cross(Frame::Global, axis, from);
+                let sine = space.dot(normal, to);
+                let arena = &mut space.arena;
+                let shared = arena.mul(g, along[1 - k]);
+                let rate = arena.sub(along[k], shared);
+                let rate = arena.mul(rate, across);
+                outputs.extend([cosine, sine, rate]);
+            }
             outputs
         });
         angles.push((place, kernel));

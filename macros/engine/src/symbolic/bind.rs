@@ -148,11 +148,15 @@ impl Binder<'_> {
                 Box::new(self.vector(arena, a)),
                 Box::new(self.vector(arena, b)),
             ),
+            Term::Spin { from, to } => {
+                VectorExpr::Spin([*from, *to].map(|body| self.element.bodies[body]))
+            }
             Term::Number(_)
             | Term::Scalar(_)
             | Term::Time
             | Term::Dot(..)
             | Term::Function(..)
+            | Term::Direction(..)
             | Term::Angle(_)
             | Term::Initial(_)
             | Term::Rate(_)
@@ -183,6 +187,10 @@ impl Binder<'_> {
             Term::Function(function, inner) => {
                 let inner = self.scalar(arena, inner);
                 of(arena, *function, inner)
+            }
+            Term::Direction(sine, cosine) => {
+                let (sine, cosine) = (self.scalar(arena, sine), self.scalar(arena, cosine));
+                direction(arena, sine, cosine)
             }
             Term::Angle(turn) => ScalarExpr::Angle(Box::new(self.angle(arena, *turn))),
             Term::Initial(inner) => {
@@ -221,6 +229,7 @@ impl Binder<'_> {
             | Term::Origin(_)
             | Term::Components(_)
             | Term::Onto(..)
+            | Term::Spin { .. }
             | Term::Cross(..) => unreachable!("shapes are checked where the definition stands"),
         }
     }
@@ -341,6 +350,10 @@ impl Law<'_> {
                 let inner = self.expand(arena, inner);
                 of(arena, *function, inner)
             }
+            LawTerm::Direction(sine, cosine) => {
+                let (sine, cosine) = (self.expand(arena, sine), self.expand(arena, cosine));
+                direction(arena, sine, cosine)
+            }
             LawTerm::Setpoint(numbers) => {
                 ScalarExpr::Setpoint(numbers.map(|value| number(arena, value)))
             }
@@ -444,6 +457,21 @@ fn of(arena: &mut Arena, function: Function, inner: ScalarExpr) -> ScalarExpr {
     match inner {
         ScalarExpr::Constant(value) => ScalarExpr::Constant(function.value(arena, value)),
         inner => ScalarExpr::Function(function, Box::new(inner)),
+    }
+}
+
+/// The angle of a sine and a cosine, from `-pi` to `pi`.
+fn direction(arena: &mut Arena, sine: ScalarExpr, cosine: ScalarExpr) -> ScalarExpr {
+    match (sine, cosine) {
+        (ScalarExpr::Constant(sine), ScalarExpr::Constant(cosine)) => {
+            ScalarExpr::Constant(arena.atan2(sine, cosine))
+        }
+        (sine, cosine) => ScalarExpr::Direction(Box::new(AngleExpr {
+            sine,
+            cosine,
+            near: Arena::ZERO,
+            paired: None,
+        })),
     }
 }
 

@@ -35,6 +35,11 @@ impl VectorExpr {
                 let (a, b) = (a.value(space, motion), b.value(space, motion));
                 space.cross(Frame::Global, a, b)
             }
+            Self::Spin([from, to]) => {
+                let spin = |(body, sign): (Option<usize>, Expr)| Some((sign, motion.spin[body?]));
+                let spins = [(*to, Arena::ONE), (*from, -Arena::ONE)];
+                space.sum(spins.into_iter().filter_map(spin))
+            }
         }
     }
 
@@ -71,6 +76,7 @@ impl VectorExpr {
                 );
                 space.sum([(Arena::ONE, first), (Arena::ONE, second)])
             }
+            Self::Spin(_) => unreachable!("there is no rate of a rate in the language"),
         }
     }
 
@@ -110,6 +116,7 @@ impl VectorExpr {
                 let two = space.arena.constant(2.0);
                 space.sum([(Arena::ONE, first), (two, mixed), (Arena::ONE, last)])
             }
+            Self::Spin(_) => unreachable!("there is no rate of a rate in the language"),
         }
     }
 
@@ -161,6 +168,7 @@ impl VectorExpr {
                 a.pull_back(space, motion, factor, on_a, gradient);
                 b.pull_back(space, motion, factor, on_b, gradient);
             }
+            Self::Spin(_) => unreachable!("only positions have a gradient in the language"),
         }
     }
 }
@@ -186,6 +194,10 @@ impl ScalarExpr {
                 function.value(&mut space.arena, inner)
             }
             Self::Angle(angle) => angle.value(space, motion),
+            Self::Direction(angle) => {
+                let (sine, cosine) = angle.parts(space, motion);
+                space.arena.atan2(sine, cosine)
+            }
             Self::Rate(inner) => inner.rate(space, motion),
             Self::State { value, .. } => *value,
             Self::Side { held, of } => {
@@ -220,7 +232,7 @@ impl ScalarExpr {
                 let slope = function.slope(&mut space.arena, x);
                 space.arena.mul(slope, dx)
             }
-            Self::Angle(angle) => angle.rate(space, motion),
+            Self::Angle(angle) | Self::Direction(angle) => angle.rate(space, motion),
             Self::Rate(_) => unreachable!("there is no rate of a rate in the language"),
             Self::State { place, .. } => motion.states[*place].value(space, motion),
             Self::Side { .. } => Arena::ZERO,
@@ -263,7 +275,7 @@ impl ScalarExpr {
                 let (first, second) = (arena.mul(curvature, square), arena.mul(slope, ddx));
                 arena.add(first, second)
             }
-            Self::Angle(angle) => angle.bias(space, motion),
+            Self::Angle(angle) | Self::Direction(angle) => angle.bias(space, motion),
             Self::Rate(_) => unreachable!("there is no rate of a rate in the language"),
             Self::State { .. } | Self::Side { .. } | Self::Select { .. } => {
                 unreachable!("the laws of joints hold no states, and do not switch")
@@ -305,7 +317,9 @@ impl ScalarExpr {
                 let seed = space.arena.mul(seed, slope);
                 inner.pull_back(space, motion, seed, gradient);
             }
-            Self::Angle(angle) => angle.pull_back(space, motion, seed, gradient),
+            Self::Angle(angle) | Self::Direction(angle) => {
+                angle.pull_back(space, motion, seed, gradient);
+            }
             Self::Rate(_) | Self::Side { .. } | Self::Select { .. } => {
                 unreachable!("only positions have a gradient in the language")
             }

@@ -17,6 +17,9 @@ pub enum VectorExpr {
     Scaled(Box<ScalarExpr>, Box<VectorExpr>),
     /// A cross product.
     Cross(Box<VectorExpr>, Box<VectorExpr>),
+    /// The angular velocity of the second body against the first, which has no derivative of its
+    /// own.
+    Spin([Option<usize>; 2]),
 }
 
 /// A scalar expression, bound to the bodies of a mechanism.
@@ -36,6 +39,8 @@ pub enum ScalarExpr {
     Function(Function, Box<ScalarExpr>),
     /// An angle over many turns.
     Angle(Box<AngleExpr>),
+    /// An angle from `-pi` to `pi`, which counts no turns.
+    Direction(Box<AngleExpr>),
     /// An input with its first and second derivative.
     Setpoint([Expr; 3]),
     /// The time derivative, which has no derivative of its own.

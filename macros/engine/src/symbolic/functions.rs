@@ -11,6 +11,15 @@ impl Function {
             Self::SquareRoot => arena.sqrt(x),
             Self::Sine => arena.sin(x),
             Self::Cosine => arena.cos(x),
+            Self::ArcSine => {
+                let cosine = beside(arena, x);
+                arena.atan2(x, cosine)
+            }
+            Self::ArcCosine => {
+                let sine = beside(arena, x);
+                arena.atan2(sine, x)
+            }
+            Self::ArcTangent => arena.atan2(x, Arena::ONE),
             Self::Exponential => arena.exp(x),
             Self::SmoothStep => {
                 // u^3 (10 + u (6 u - 15))
@@ -41,6 +50,16 @@ impl Function {
             }
             Self::Sine => arena.cos(x),
             Self::Cosine => -arena.sin(x),
+            Self::ArcSine => {
+                let cosine = beside(arena, x);
+                arena.reciprocal(cosine)
+            }
+            Self::ArcCosine => -Self::ArcSine.slope(arena, x),
+            Self::ArcTangent => {
+                let square = arena.square(x);
+                let sum = arena.add(Arena::ONE, square);
+                arena.reciprocal(sum)
+            }
             Self::Exponential => arena.exp(x),
             Self::SmoothStep => {
                 // 30 u^2 (1 - u)^2
@@ -72,6 +91,21 @@ impl Function {
             }
             Self::Sine => -arena.sin(x),
             Self::Cosine => -arena.cos(x),
+            Self::ArcSine => {
+                // x (f')^3
+                let slope = self.slope(arena, x);
+                let square = arena.square(slope);
+                let cube = arena.mul(square, slope);
+                arena.mul(x, cube)
+            }
+            Self::ArcCosine => -Self::ArcSine.curvature(arena, x),
+            Self::ArcTangent => {
+                // -2 x (f')^2
+                let slope = self.slope(arena, x);
+                let square = arena.square(slope);
+                let product = arena.mul(x, square);
+                -arena.add(product, product)
+            }
             Self::Exponential => arena.exp(x),
             Self::SmoothStep => {
                 // 60 u (1 - u) (1 - 2 u)
@@ -85,6 +119,14 @@ impl Function {
             Self::Curve(curve) => arena.curve(curve.derived().derived(), x),
         }
     }
+}
+
+/// The cosine of an angle whose sine is `x`, or the other way round: not negative, NaN beyond -1
+/// and 1. As a product, so that it keeps its digits near these.
+fn beside(arena: &mut Arena, x: Expr) -> Expr {
+    let (above, below) = (arena.sub(Arena::ONE, x), arena.add(Arena::ONE, x));
+    let square = arena.mul(above, below);
+    arena.sqrt(square)
 }
 
 /// `a x + b`.

@@ -58,7 +58,7 @@ pub mod repeated;
 pub mod rotation;
 pub mod scene;
 pub mod separation;
-mod start;
+pub(crate) mod start;
 pub(crate) mod table;
 pub mod tape;
 pub mod vector;

@@ -75,7 +75,7 @@ fn each_scalar<'a>(effect: &'a Effect, visit: &mut impl FnMut(&'a ScalarExpr)) {
 /// The factors of a vector.
 fn factors<'a>(vector: &'a VectorExpr, visit: &mut impl FnMut(&'a ScalarExpr)) {
     match vector {
-        VectorExpr::Fixed(..) | VectorExpr::Point(..) => {}
+        VectorExpr::Fixed(..) | VectorExpr::Point(..) | VectorExpr::Spin(_) => {}
         VectorExpr::Sum(terms) => terms.iter().for_each(|(_, term)| factors(term, visit)),
         VectorExpr::Scaled(factor, inner) => {
             visit(factor);
@@ -94,6 +94,7 @@ fn parts(scalar: &ScalarExpr) -> Vec<&ScalarExpr> {
         ScalarExpr::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),
         ScalarExpr::Product(a, b) => vec![a, b],
         ScalarExpr::Function(_, inner) | ScalarExpr::Rate(inner) => vec![inner],
+        ScalarExpr::Direction(angle) => vec![&angle.sine, &angle.cosine],
         ScalarExpr::Side { of, .. } => vec![of],
         ScalarExpr::Select { side, parts } => vec![side, &parts[0], &parts[1]],
         ScalarExpr::Constant(_)
@@ -107,7 +108,22 @@ fn parts(scalar: &ScalarExpr) -> Vec<&ScalarExpr> {
 
 /// Whether it depends on a rate: the direction of a velocity is that of friction, which holds.
 fn has_rate(scalar: &ScalarExpr) -> bool {
-    matches!(scalar, ScalarExpr::Rate(_)) || parts(scalar).into_iter().any(has_rate)
+    match scalar {
+        ScalarExpr::Rate(_) => true,
+        ScalarExpr::Dot(a, b) => has_spin(a) || has_spin(b),
+        _ => parts(scalar).into_iter().any(has_rate),
+    }
+}
+
+/// The same of a vector.
+fn has_spin(vector: &VectorExpr) -> bool {
+    match vector {
+        VectorExpr::Spin(_) => true,
+        VectorExpr::Fixed(..) | VectorExpr::Point(..) => false,
+        VectorExpr::Sum(terms) => terms.iter().any(|(_, term)| has_spin(term)),
+        VectorExpr::Scaled(factor, inner) => has_rate(factor) || has_spin(inner),
+        VectorExpr::Cross(a, b) => has_spin(a) || has_spin(b),
+    }
 }
 
 /// What stands under a root, if it is the square of a separation.
@@ -119,12 +135,8 @@ fn under(length: &ScalarExpr) -> Option<&ScalarExpr> {
         ScalarExpr::Product(a, b) => a == b && !has_rate(a),
         _ => false,
     };
-    let mut is_of_places = true;
-    if let ScalarExpr::Dot(vector, _) = &**under {
-        factors(vector, &mut |factor| is_of_places &= !has_rate(factor));
-    }
     match &**under {
-        ScalarExpr::Dot(a, b) if a == b && is_of_places => Some(under),
+        ScalarExpr::Dot(a, b) if a == b && !has_spin(a) => Some(under),
         ScalarExpr::Sum(terms) if terms.len() <= 3 => terms
             .iter()
             .all(|(factor, term)| *factor == Arena::ONE && is_square(term))
@@ -280,6 +292,16 @@ impl Probe<'_> {
                 let [x, by] = self.dual(inner);
                 let [value, slope] = self.function(*function, x);
                 [value, if by == 0.0 { 0.0 } else { slope * by }]
+            }
+            ScalarExpr::Direction(angle) => {
+                let ([s, ds], [c, dc]) = (self.dual(&angle.sine), self.dual(&angle.cosine));
+                let area = c * ds - s * dc;
+                let slope = if area == 0.0 {
+                    0.0
+                } else {
+                    area / (c * c + s * s)
+                };
+                [s.atan2(c), slope]
             }
             ScalarExpr::Rate(inner) => {
                 // Of what depends on the length, by the chain rule.

@@ -43,11 +43,14 @@ pub(super) fn vector(arena: &mut Arena, model: &Model, expr: &VectorExpr) -> Tri
             let (a, b) = (vector(arena, model, a), vector(arena, model, b));
             cross(arena, a, b)
         }
+        VectorExpr::Spin(_) => {
+            unreachable!("the language refuses rates in the reference configuration")
+        }
     }
 }
 
 /// A vector in the reference configuration, in the principal axes of a body.
-pub(super) fn on_body(
+pub(crate) fn on_body(
     arena: &mut Arena,
     model: &Model,
     expr: &VectorExpr,
@@ -84,6 +87,11 @@ pub(super) fn scalar(arena: &mut Arena, model: &Model, expr: &ScalarExpr) -> Exp
         ScalarExpr::Function(function, inner) => {
             let inner = scalar(arena, model, inner);
             function.value(arena, inner)
+        }
+        ScalarExpr::Direction(angle) => {
+            let sine = scalar(arena, model, &angle.sine);
+            let cosine = scalar(arena, model, &angle.cosine);
+            arena.atan2(sine, cosine)
         }
         ScalarExpr::Angle(_) => Arena::ZERO,
         ScalarExpr::Time

@@ -20,6 +20,7 @@
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::parse::{Parse, ParseStream, Parser};
+use syn::punctuated::Punctuated;
 use syn::{Attribute, Token, Visibility};
 
 use super::motion::{MotionSyntax, motions};
@@ -71,12 +72,12 @@ pub enum Statement {
     Zero(Box<syn::Expr>),
     /// `let name = expr`, without an expression where that could not be read.
     Let(Ident, Option<Box<syn::Expr>>),
-    /// `angle about axis`.
+    /// `angle about axis`, or `angle about first, second`.
     Angle {
         /// The word `angle`.
         keyword: Ident,
-        /// The axis.
-        axis: Ident,
+        /// The axis, or both.
+        axes: Vec<Ident>,
     },
     /// `displacement expr`.
     Displacement(Ident, Box<syn::Expr>),
@@ -414,17 +415,20 @@ fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
         "angle" => {
             let about = |input: ParseStream<'_>| {
                 let about: Ident = input.parse()?;
-                let axis: Ident = input.parse()?;
-                if about != "about" || !input.is_empty() {
+                let axes = Punctuated::<Ident, Token![,]>::parse_separated_nonempty(input)?;
+                if about != "about" || axes.len() > 2 || !input.is_empty() {
                     return Err(input.error("expected an axis"));
                 }
-                Ok(axis)
+                Ok(axes.into_iter().collect())
             };
-            let axis = about.parse2(rest.tokens).ok();
-            if axis.is_none() {
-                faults.at(&piece.tokens, "expected an axis, as in `angle about axis`");
+            let axes = about.parse2(rest.tokens).ok();
+            if axes.is_none() {
+                faults.at(
+                    &piece.tokens,
+                    "expected an axis, as in `angle about axis`, or two, as in `angle about first, second`",
+                );
             }
-            axis.map(|axis| Statement::Angle { keyword, axis })
+            axes.map(|axes| Statement::Angle { keyword, axes })
         }
         "motion" => {
             let motions = motions(&rest, faults);

@@ -54,6 +54,19 @@ impl Pose {
         }
     }
 
+    /// The angular velocity along the motion, global: half the sum of `a x a'` over the axes `a` of
+    /// the body, which have the length of `p . p`.
+    fn spin(&self) -> [f64; 3] {
+        let mut twice = [0.0; 3];
+        for k in 0..3 {
+            let axis = self.outwards([0, 1, 2].map(|l| constant(f64::from(u8::from(k == l)))));
+            let turning = cross(axis.map(|a| constant(a.re)), axis.map(|a| constant(a.v1)));
+            twice = [0, 1, 2].map(|l| twice[l] + turning[l].re);
+        }
+        let square: f64 = self.euler.iter().map(|e| e.re * e.re).sum();
+        twice.map(|part| 0.5 * part / square)
+    }
+
     /// `A(p) s` by the formula for one vector: `(e0^2 - e.e) s + 2 e (e.s) + 2 e0 (e x s)`;
     /// backwards with `-e`.
     fn turned(&self, s: Vector, sign: f64) -> Vector {
@@ -459,6 +472,21 @@ impl<'a> Interpreter<'a> {
             }
             // Along the motion.
             "rate" => scalar(constant(number(0).v1)),
+            "angular_velocity" => {
+                let [from, to] = [0, 1].map(|place| {
+                    let body = self.body(given[place]);
+                    self.pose(body, when).spin()
+                });
+                vector([0, 1, 2].map(|k| constant(to[k] - from[k])))
+            }
+            "asin" => scalar(number(0).asin()),
+            "acos" => scalar(number(0).acos()),
+            "atan" => scalar(number(0).atan()),
+            "atan2" => {
+                let (sine, cosine) = (number(0), number(1));
+                self.avoid(sine * sine + cosine * cosine);
+                scalar(arc(sine, cosine))
+            }
             "sqrt" => scalar(self.root(number(0))),
             "sin" => scalar(number(0).sin()),
             "cos" => scalar(number(0).cos()),

@@ -256,15 +256,10 @@ fn statement(input: ParseStream<'_>) -> syn::Result<Statement> {
         }
     }
     let word = input.parse::<Ident>()?.to_string();
-    if word == "motion" {
+    if word == "motion" || word == "angle" {
         while !input.peek(Token![;]) {
             input.parse::<TokenTree>()?;
         }
-        return Ok(Statement::Reading);
-    }
-    if word == "angle" {
-        input.parse::<Ident>()?;
-        input.parse::<Ident>()?;
         return Ok(Statement::Reading);
     }
     let first: Expr = input.parse()?;

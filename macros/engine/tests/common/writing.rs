@@ -163,8 +163,9 @@ pub(crate) fn definition(name: &str, bodies: usize, statements: &[Statement]) ->
 /// A law of the time and of one argument.
 pub(crate) fn law(dice: &mut Dice) -> String {
     let (a, b, c) = (dice.number(), dice.number(), dice.number());
-    match dice.below(5) {
+    match dice.below(6) {
         0 => format!("{a:?} + {b:?} * time"),
+        4 => format!("{a:?} * atan2(x, {b:?}) - asin(0.5 * sin({c:?} * time)) * atan(x)"),
         1 => format!("{a:?} * sin({b:?} * time + x) - {c:?} * x"),
         2 => format!("x * smooth_step(2.0 * time) + exp({a:?} * time) / (2.0 + cos(x))"),
         3 => format!("sqrt(1.0 + x * x) * (time - {a:?}) / 2.0"),
@@ -313,7 +314,16 @@ impl Writer<'_> {
             6 => format!("squared({})", self.vector(depth, described)),
             7 => format!("length({})", self.vector(depth, described)),
             8 => format!("sqrt(1.0 + squared({}))", self.vector(depth, described)),
-            9 => format!("sin({})", self.scalar(depth, described)),
+            9 => {
+                let inner = self.scalar(depth, described);
+                match self.dice.below(5) {
+                    0 => format!("atan({inner})"),
+                    1 => format!("asin(0.9 * sin({inner}))"),
+                    2 => format!("acos(0.8 * cos({inner}))"),
+                    3 => format!("atan2({inner}, {})", self.scalar(depth, described)),
+                    _ => format!("sin({inner})"),
+                }
+            }
             10 => format!("exp(0.2 * {})", self.scalar(depth, described)),
             11 => format!("smooth_step({})", self.scalar(depth, described)),
             12 if !described => format!("law({})", self.scalar(depth, described)),
@@ -350,7 +360,17 @@ impl Writer<'_> {
                 )
             }
             2 => Statement::Force(self.vector(3, false), self.point()),
-            _ => Statement::Moment(self.vector(3, false), self.body()),
+            _ => {
+                let (moment, body) = (self.vector(3, false), self.body());
+                if self.bodies < 2 || self.dice.below(2) == 0 {
+                    return Statement::Moment(moment, body);
+                }
+                let from = self.dice.below(self.bodies);
+                let to = (from + 1) % self.bodies;
+                let (from, to) = (BODIES[from], BODIES[to]);
+                let damped = format!("{moment} - 0.3 * angular_velocity({from}, {to})");
+                Statement::Moment(damped, body)
+            }
         }
     }
 

@@ -285,6 +285,7 @@ impl Generator {
             "FollowerForce",
             "ConstantMoment",
             "FollowerMoment",
+            "RotationalDamper",
         ];
         let names = if self.is_particle(j) || self.dice.below(2) == 0 {
             direct
@@ -326,6 +327,9 @@ impl Generator {
                 }
                 entries.push(self.axis("axis", direction, &bodies));
             }
+            // A particle does not turn.
+            "RotationalDamper" if self.is_particle(i) => return None,
+            "RotationalDamper" => {}
             _ => {
                 if matches!(ty, "FollowerForce" | "FollowerMoment") {
                     bodies = vec![
@@ -363,6 +367,7 @@ impl Generator {
             }
             "Actuator" => entries.push(("force".into(), self.law(&["length", "rate"]))),
             "TorsionalActuator" => entries.push(("moment".into(), self.law(&["angle", "rate"]))),
+            "RotationalDamper" => entries.push(("damping".into(), self.number(damping))),
             _ => {}
         }
         Some((ty, bodies, entries))

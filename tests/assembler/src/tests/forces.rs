@@ -43,6 +43,7 @@ fn forces(scene: &Assembler, [i, j]: [BodyId; 2]) -> Vec<Force> {
         Force::spring_damper(scene, b, HEAD, TAIL, 40.0, 3.0, 0.7),
         Force::torsional_spring_damper(scene, b, AXIS, 8.0, 0.0, 0.3),
         Force::torsional_spring_damper(scene, b, AXIS, 8.0, 0.6, 0.3),
+        Force::rotational_damper(b, 0.9),
         Force::actuator(scene, b, HEAD, TAIL, law()),
         Force::torsional_actuator(scene, b, AXIS, law()),
         Force::point_force(scene, b, TAIL, [3.0, -1.0, 2.0]),
@@ -134,7 +135,7 @@ fn between_bodies_action_equals_reaction() {
     let mut rng = generator(42);
     let (without, ends) = bodies(false, &mut rng);
     // A force or a moment of an outside body has no reaction: only those along a scalar.
-    for force in forces(&without, ends).into_iter().take(6) {
+    for force in forces(&without, ends).into_iter().take(7) {
         let mut scene = without.clone();
         scene.add_force(force);
         let x = random_state(&scene, Spread::default(), &mut rng);
@@ -198,6 +199,10 @@ fn forces_have_the_values_of_closed_forms() {
         (
             Force::torsional_spring_damper(&scene, b, z, 10.0, 4.0, 0.5),
             [0.0, 0.0, 0.0, 0.0, 0.0, -10.0 * (FRAC_PI_2 - 0.5) - 8.0],
+        ),
+        (
+            Force::rotational_damper(b, 4.0),
+            [0.0, 0.0, 0.0, 0.0, 0.0, -8.0],
         ),
         (
             Force::actuator(&scene, b, [0.0; 3], [2.0, 0.0, 0.0], actuator.clone()),

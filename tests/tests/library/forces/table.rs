@@ -104,6 +104,10 @@ pub(super) fn entries() -> Vec<Entry> {
             Some(|s, b, d| Force::torsional_spring_damper(s, two(b), d.a, 8.0, 0.0, 0.0))
         },
         force! {
+            both RotationalDamper { damping = (0.9) },
+            Some(|_, b, _| Force::rotational_damper(two(b), 0.9))
+        },
+        force! {
             both Actuator { head = head, tail = tail, force = (-20.0 * (length - 0.4) - 3.0 * rate + sin(time)) },
             Some(|s, b, d| Force::actuator(s, two(b), d.head, d.tail, law()))
         },

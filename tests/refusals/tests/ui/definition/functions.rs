@@ -19,6 +19,25 @@ holonom::joint! {
         initial(length * time);
         initial(angle(i, j, axis), 1.0);
         rate(length);
+        angular_velocity(i, j);
+        atan2(length);
+        atan2(i.axis, length);
+        dot(i.axis, j.axis) - asin(2.0);
+        dot(i.axis, j.axis) - acos(0.5 - 2.0);
+    }
+}
+
+holonom::force! {
+    pub force Velocities(i, j; point: Point) {
+        let w = angular_velocity(i, j);
+        moment angular_velocity(i) on j;
+        moment angular_velocity(j, j) on j;
+        moment angular_velocity(i, k) on j;
+        moment rate(w) on j;
+        potential squared(w);
+        1.0 along rate(squared(w));
+        1.0 along dot(w, j.point - i.point);
+        force fixed(j, w) at j.point;
     }
 }
 
