@@ -7,6 +7,7 @@ crate::joint! {
     ///
     /// `axis_i` and `axis_j` are perpendicular in the reference configuration (Nikravesh 1988,
     /// section 7.2.2; Flores 2015, section 8.4).
+    #[doc(alias("Cardan", "Hooke", "UniversalJoint"))]
     pub joint Universal(i, j; point: Point, axis_i: Axis, axis_j: Axis) {
         j.point - i.point;
         dot(i.axis_i, j.axis_j);
