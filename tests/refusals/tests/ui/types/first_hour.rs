@@ -1,4 +1,4 @@
-//! What else is met in the first hour: no default, an observer that may fail, a handle of another kind.
+//! The first hour: no default, an observer that may fail, a handle of another kind.
 
 use holonom::prelude::*;
 
