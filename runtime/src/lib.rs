@@ -1,10 +1,48 @@
-//! Equations of motion of rigid multibody systems, generated at compile time from an annotated
-//! struct.
+//! Describe a mechanism as a struct; a macro writes its equations of motion as straight-line Rust.
 //!
-//! A mechanism is a struct with `#[derive(Mechanism)]`: bodies, joints, forces, parameters and
-//! inputs are its fields. The derive writes the kernels of its equations of motion as straight-line
-//! code; this crate holds what runs them. **Begin with the [`guide`]**; the whole language is on
-//! one page of it, [`guide::reference`](mod@guide::reference).
+//! ```
+//! use holonom::prelude::*;
+//!
+//! /// A steel rod of 1 m, hinged to the ground about x, released from the horizontal.
+//! #[derive(Mechanism)]
+//! #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+//! struct Pendulum {
+//!     #[body(
+//!         shape = bar(
+//!             width = 0.03, height = 0.03, from = [0.0, 0.0, 0.0], to = [0.0, 1.0, 0.0]
+//!         ),
+//!         density = 7800.0,
+//!     )]
+//!     rod: Body,
+//!     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+//!     pivot: Revolute,
+//! }
+//!
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     let pendulum = Pendulum::default();
+//!     let handles = Pendulum::HANDLES; // one handle per field, under the field's name
+//!
+//!     let report = pendulum
+//!         .simulation(StandardLagrange, DormandPrince::default())
+//!         .run(0.0..=10.0, every(0.02), |sample| -> Result<(), Fault> {
+//!             let reaction = sample.reaction(handles.pivot, handles.rod)?;
+//!             let (time, angle) = (sample.time(), sample.angle(handles.pivot));
+//!             println!("{time:.2} s: {angle:.4} rad, {:.3} N", reaction.force.norm());
+//!             Ok(())
+//!         })?;
+//!     println!("{}", report.warnings()); // "no warnings", or a sentence for each
+//!     Ok(())
+//! }
+//! ```
+//!
+//! **Begin with the [`guide`]**: its first program runs from `cargo new` on, and [`guide::recipes`]
+//! has a short program for each task. The whole language is on one page,
+//! [`guide::reference`](mod@guide::reference). A four-bar, moved by a motor and drawn by
+//! `holonom-film`:
+//!
+#![doc = include_str!("guide/four-bar.svg")]
+//!
+//! # Where is what
 //!
 //! | what | where |
 //! |---|---|
@@ -29,8 +67,18 @@
 //! | states of an integrator's [`System`](integrate::System) | arrays, [`State`](state::State), [`JointState`](state::JointState) |
 //! | numbers, and numbers that carry derivatives along | [`Scalar`], [`Real`], [`Forward`] |
 //!
-//! Units are SI, angles are in radians. The crate needs no heap and no standard library: with
-//! default features off, turn on `libm`.
+//! Units are SI, angles are in radians.
+//!
+//! # Features
+//!
+//! | feature | |
+//! |---|---|
+//! | `std` (default) | elementary functions of the standard library |
+//! | `libm` | those of `libm`, for targets without the standard library; the crate needs no heap |
+//! | `recorder` | samples as lines of a CSV file |
+//! | `urdf` | `urdf!`: a mechanism from a URDF file |
+//! | `serde` | states by the names of bodies, poses, reports and warnings, in any format of serde |
+//! | `mint` | poses, vectors and quaternions in the types of graphics libraries |
 
 #![no_std]
 #![forbid(unsafe_code)]

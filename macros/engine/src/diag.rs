@@ -176,15 +176,65 @@ pub fn code(tokens: impl ToTokens) -> String {
     text
 }
 
-/// "; did you mean `rocker`?" where a known name is near enough.
+/// "; did you mean `rocker`?" where a known name is near enough, or is what other tools call so.
 pub fn did_you_mean<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    known
-        .into_iter()
-        .map(|name| (distance(found, name), name))
+    let known: Vec<&str> = known.into_iter().collect();
+    let near = known.iter().map(|name| (distance(found, name), *name));
+    let near = near
         .filter(|&(distance, name)| distance <= 1 + name.len() / 4 && distance < name.len())
-        .min()
-        .map_or_else(String::new, |(_, name)| format!("; did you mean `{name}`?"))
+        .min();
+    let other = || ELSEWHERE.iter().find(|(name, _)| *name == found);
+    let called = || {
+        let (_, ours) = other()?;
+        ours.iter().find(|name| known.contains(name)).copied()
+    };
+    near.map(|(_, name)| name)
+        .or_else(called)
+        .map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
+
+/// What other tools and books call something, and what it may be called here.
+const ELSEWHERE: [(&str, &[&str]); 39] = [
+    ("anchor", &["point"]),
+    ("base", &["ground"]),
+    ("beam", &["bar"]),
+    ("bodies", &["between"]),
+    ("box", &["block"]),
+    ("c", &["damping"]),
+    ("center", &["position", "at"]),
+    ("centre", &["position", "at"]),
+    ("child", &["between"]),
+    ("com", &["position"]),
+    ("connects", &["between"]),
+    ("cuboid", &["block"]),
+    ("damper", &["damping"]),
+    ("degrees", &["deg"]),
+    ("diameter", &["radius"]),
+    ("direction", &["axis", "normal"]),
+    ("end", &["to", "tail"]),
+    ("fixed", &["ground"]),
+    ("floor", &["ground"]),
+    ("frame", &["ground"]),
+    ("free_length", &["length"]),
+    ("initial_velocity", &["velocity"]),
+    ("k", &["stiffness"]),
+    ("location", &["position", "point", "at"]),
+    ("moi", &["inertia"]),
+    ("omega", &["angular_velocity"]),
+    ("origin", &["position", "point"]),
+    ("parent", &["between"]),
+    ("pipe", &["tube"]),
+    ("pos", &["position", "point"]),
+    ("position", &["point", "at"]),
+    ("quaternion", &["orientation"]),
+    ("range", &["limits"]),
+    ("rest_length", &["length"]),
+    ("rotation", &["orientation"]),
+    ("sphere", &["ball"]),
+    ("start", &["from", "head"]),
+    ("torque", &["moment"]),
+    ("world", &["ground"]),
+];
 
 /// The number of insertions, deletions and replacements between two words (Levenshtein).
 fn distance(a: &str, b: &str) -> usize {
@@ -204,7 +254,7 @@ fn distance(a: &str, b: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{Faults, code, did_you_mean, distance};
+    use super::{ELSEWHERE, Faults, code, did_you_mean, distance};
     use quote::quote;
 
     #[test]
@@ -216,6 +266,26 @@ mod tests {
         );
         assert_eq!(did_you_mean("wheel", ["crank", "rocker"]), "");
         assert_eq!(did_you_mean("k", ["i", "j"]), "");
+    }
+
+    #[test]
+    fn names_of_other_tools_are_translated_where_ours_is_known() {
+        assert_eq!(
+            did_you_mean("world", ["rod", "ground"]),
+            "; did you mean `ground`?"
+        );
+        assert_eq!(
+            did_you_mean("position", ["between", "at"]),
+            "; did you mean `at`?"
+        );
+        assert_eq!(did_you_mean("world", ["rod", "crank"]), "");
+        // A name that is near is what was meant.
+        assert_eq!(
+            did_you_mean("world", ["ground", "worlds"]),
+            "; did you mean `worlds`?"
+        );
+        let others = ELSEWHERE.map(|(name, _)| name);
+        assert!(others.is_sorted() && ELSEWHERE.iter().all(|(_, ours)| !ours.is_empty()));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 crate::force! {
     /// A force (N) at the point of `j`, fixed in the axes of `i`: constant where `i` is the ground.
     /// There is no reaction on `i`.
+    #[doc(alias("ExternalForce"))]
     pub force PointForce(i, j; point: Point, force: Vector) {
         force i.force at j.point;
     }

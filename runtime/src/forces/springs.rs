@@ -8,6 +8,7 @@ crate::force! {
     /// `free_length` of a literal 0 without damping needs none. Stiffness in N/m, damping in N s/m,
     /// potential energy
     /// `stiffness (d - free_length)^2 / 2` (Nikravesh 1988, section 9.3.4).
+    #[doc(alias("Spring", "Damper", "LinearSpring"))]
     pub force SpringDamper(
         i, j; head: Point, tail: Point, stiffness: Number, damping: Number = 0.0, free_length: Length
     ) {
@@ -35,6 +36,7 @@ crate::force! {
     /// right-handed, zero in the reference configuration; turns are counted by an auxiliary
     /// variable of the state. Stiffness in N m/rad, damping in N m s/rad, potential energy
     /// `stiffness (a - free_angle)^2 / 2` (Nikravesh 1988, section 9.3.5).
+    #[doc(alias("TorsionSpring", "RotationalSpring", "TorsionalSpring"))]
     pub force TorsionalSpringDamper(
         i, j; axis: Axis, stiffness: Number, damping: Number = 0.0, free_angle: Angle = 0.0
     ) {

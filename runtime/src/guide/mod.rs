@@ -91,6 +91,9 @@
 //! numbers that the text gives. Every equation is shown twice: typeset, where the page could load
 //! KaTeX, and as plain text.
 
+// The scripts stand in the pages and not in the header of all of rustdoc's: then every build of the
+// documentation typesets, here, at docs.rs, and beside a user's own crate.
+
 #[doc = include_str!("recipes.md")]
 pub mod recipes {}
 
@@ -98,6 +101,7 @@ pub mod recipes {}
 pub mod coming_from {}
 
 #[doc = include_str!("mechanism.md")]
+#[doc = include_str!("typeset.html")]
 pub mod mechanism {}
 
 #[doc = "Describe bodies by shapes and rotations by words: mass, centre, inertia and axes follow."]
@@ -120,12 +124,15 @@ pub mod parts {}
 #[doc = include_str!("joints.svg")]
 #[doc = ""]
 #[doc = include_str!("reference.md")]
+#[doc = include_str!("typeset.html")]
 pub mod reference {}
 
 #[doc = include_str!("joint.md")]
+#[doc = include_str!("typeset.html")]
 pub mod joint {}
 
 #[doc = include_str!("forces.md")]
+#[doc = include_str!("typeset.html")]
 pub mod forces {}
 
 #[doc = include_str!("data.md")]
@@ -156,6 +163,7 @@ pub mod restart {}
 pub mod trust {}
 
 #[doc = include_str!("reactions.md")]
+#[doc = include_str!("typeset.html")]
 pub mod reactions {}
 
 #[doc = include_str!("redundant.md")]
@@ -168,6 +176,7 @@ pub mod embedded {}
 pub mod ensembles {}
 
 #[doc = include_str!("choosing.md")]
+#[doc = include_str!("typeset.html")]
 pub mod choosing {}
 
 #[doc = include_str!("accuracy.md")]

@@ -10,6 +10,7 @@ crate::joint! {
     /// `i`, and the same turned by the least rotation that takes one axis to the other for `j`, the
     /// equation is `b_i . n_j = n_i . b_j`: the relative rotation has no part about the shaft (Haug
     /// 1989, section 9.4).
+    #[doc(alias("Homokinetic", "CvJoint"))]
     pub joint ConstantVelocity(i, j; point: Point, axis_i: Axis, axis_j: Axis) {
         j.point - i.point;
         let bisector = i.axis_i + j.axis_j;

@@ -7,6 +7,7 @@ crate::joint! {
     /// Two constraints of parallelism, of the axes and of the axis and the line that joins the
     /// points (Nikravesh 1988, section 7.2.4; Flores 2015, section 8.5). The displacement is that
     /// of `j`'s point along the axis, zero in the reference configuration.
+    #[doc(alias("CylindricalJoint", "Sleeve"))]
     pub joint Cylindrical(i, j; point: Point, axis: Axis) {
         dot(i.axis.normals(), j.axis);
         dot(i.axis.normals(), j.point - i.point);

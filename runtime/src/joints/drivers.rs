@@ -7,6 +7,7 @@ crate::joint! {
     ///
     /// Only this equation: a `Revolute` or another joint says where the axis is. The driving effort
     /// is the moment of the motor (N m).
+    #[doc(alias("RotationalMotor"))]
     pub joint AngleDriver(i, j; axis: Axis, motion: Law) {
         drive angle(i, j, axis) to motion();
         angle about axis;
@@ -29,6 +30,7 @@ crate::joint! {
     /// axis of `i` by `motion` (m), zero in the reference configuration.
     ///
     /// The driving effort (N) acts on `j` along the axis.
+    #[doc(alias("LinearMotor"))]
     pub joint DisplacementDriver(i, j; point: Point, axis: Axis, motion: Law) {
         drive dot(i.axis, j.point - i.point) to motion();
         displacement dot(i.axis, j.point - i.point);

@@ -5,6 +5,7 @@ crate::joint! {
     ///
     /// The points coincide, and three pairs of vectors, along the global axes in the reference
     /// configuration, stay perpendicular.
+    #[doc(alias("Weld", "WeldJoint", "FixedJoint"))]
     pub joint Fixed(i, j; point: Point) {
         j.point - i.point;
         let x = [1.0, 0.0, 0.0];

@@ -7,6 +7,7 @@ crate::joint! {
     /// A cylindrical joint, and two vectors perpendicular to the axis stay perpendicular to each
     /// other (Nikravesh 1988, section 7.2.5; Flores 2015, section 8.6). The displacement is that of
     /// `j`'s point along the axis, zero in the reference configuration.
+    #[doc(alias("Slider", "SliderJoint", "Slide", "Translational", "PrismaticJoint"))]
     pub joint Prismatic(i, j; point: Point, axis: Axis) {
         dot(i.axis.normals(), j.axis);
         dot(i.axis.normals(), j.point - i.point);

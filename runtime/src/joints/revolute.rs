@@ -6,6 +6,7 @@ crate::joint! {
     ///
     /// The axis fixed on `j` stays perpendicular to two directions fixed on `i` that are
     /// perpendicular to the axis there (Nikravesh 1988, section 7.2.3; Flores 2015, section 8.3).
+    #[doc(alias("Hinge", "HingeJoint", "Pin", "PinJoint", "RevoluteJoint"))]
     pub joint Revolute(i, j; point: Point, axis: Axis) {
         j.point - i.point;
         dot(i.axis.normals(), j.axis);

@@ -6,6 +6,7 @@ crate::joint! {
     ///
     /// A cylindrical joint and an equation between its displacement and its angle; turns are
     /// counted by an auxiliary variable of the state (Nikravesh 1988, section 7.2.6).
+    #[doc(alias("Helical", "ScrewJoint"))]
     pub joint Screw(i, j; point: Point, axis: Axis, pitch: Length) {
         dot(i.axis.normals(), j.axis);
         dot(i.axis.normals(), j.point - i.point);

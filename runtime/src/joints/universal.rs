@@ -9,6 +9,7 @@ crate::joint! {
     /// section 7.2.2; Flores 2015, section 8.4). With the angles `a` about `axis_i` and `b` about
     /// `axis_j`, `j` is turned against `i` by the rotation by `a` after the one by `b`, both about
     /// the axes of the reference configuration.
+    #[doc(alias("Cardan", "Hooke", "UniversalJoint"))]
     pub joint Universal(i, j; point: Point, axis_i: Axis, axis_j: Axis) {
         j.point - i.point;
         dot(i.axis_i, j.axis_j);

@@ -24,6 +24,29 @@ use crate::state::vector::Array;
 
 /// A state at a time, with everything that can be read from it by handle.
 ///
+/// ```
+/// use holonom::prelude::*;
+///
+/// /// A rod of 1 m on a hinge about x.
+/// #[derive(Mechanism)]
+/// #[mechanism(gravity = [0.0, 0.0, -9.81])]
+/// struct Rod {
+///     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+///     rod: Body,
+///     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+///     hinge: Revolute,
+/// }
+///
+/// let (rod, handles) = (Rod::default(), Rod::HANDLES);
+/// let mut state = rod.described_state()?;
+/// rod.set_angle(&mut state, handles.hinge, 0.5)?;
+/// let view = rod.view(0.0, &state)?;
+/// assert!((view.angle(handles.hinge) - 0.5_f64).abs() < 1e-12);     // rad
+/// assert!((view.position(handles.rod).z - 0.5 * 0.5_f64.sin()).abs() < 1e-12); // m
+/// assert!(view.violation() < 1e-24);
+/// # Ok::<(), Fault>(())
+/// ```
+///
 /// [`Viewed::view`](crate::measure::Viewed::view) makes one of a state at hand. Observers and
 /// steppers have one. `K` says whether the constants of the mechanism are borrowed, as in a run, or
 /// held ([`OwnedView`]). All that is read is the same.

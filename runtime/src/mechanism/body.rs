@@ -16,6 +16,7 @@
 /// | `velocity` | velocity of the centre of mass at the start | m/s, global | at rest |
 /// | `angular_velocity` | angular velocity at the start | rad/s, body axes | at rest |
 /// | `free` | the body may go without a joint | - | - |
+#[doc(alias("RigidBody", "Rigid", "Link", "Solid"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Body;
 
@@ -23,6 +24,7 @@ pub struct Body;
 ///
 /// Described by `#[body(..)]` with `mass`, `position`, `velocity` and `free` as for a [`Body`].
 /// Joints may hold it at its own position only.
+#[doc(alias("PointMass", "Mass"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Particle;
 

@@ -12,6 +12,11 @@ use crate::mechanism::handle::{BodyHandle, PointHandle};
 pub struct Point;
 
 /// What has a place: a body, which is at its centre of mass, or a named point.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no place of its own",
+    label = "neither a body nor a named point",
+    note = "take the handle of a body, which is at its centre of mass, or of a `#[point(on = body, at = [..])]`"
+)]
 pub trait Located<M>: Copy + sealed::Sealed {
     #[doc(hidden)]
     fn located(self) -> Place<M>;

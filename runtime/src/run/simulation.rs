@@ -14,7 +14,37 @@ use crate::mechanism::kernels::{Mechanism, Orientation};
 use crate::run::events::list::NothingHappens;
 use crate::run::post_step::PostStabilisation;
 
-/// A mechanism, a formulation and an integrator, ready to run.
+/// A mechanism, a formulation and an integrator, ready to run over an interval of time.
+///
+/// ```
+/// use holonom::prelude::*;
+///
+/// /// A rod of 1 m on a hinge about x.
+/// #[derive(Mechanism)]
+/// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+/// struct Rod {
+///     #[body(mass = 1.0, inertia = [0.0833, 0.001, 0.0833], position = [0.0, 0.5, 0.0])]
+///     rod: Body,
+///     #[joint(between = [ground, rod], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+///     hinge: Revolute,
+/// }
+///
+/// let (rod, handles) = (Rod::default(), Rod::HANDLES);
+/// let mut start = rod.described_state()?;
+/// rod.set_angle(&mut start, handles.hinge, 0.5)?;
+/// let report = rod
+///     .simulation(StandardLagrange, DormandPrince::default())
+///     .initial_state(start)                            // else the one that is described
+///     .run(0.0..=2.0, every(0.1), |sample| {           // from, to; when to report (s)
+///         println!("{:.1} s: {:.4} rad", sample.time(), sample.angle(handles.hinge));
+///     })?;
+/// assert!(report.warnings().is_empty() && report.accepted > 10);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// An observer that can fail says so, `|sample| -> Result<(), Fault> { .. }`: then `?` works in it.
+/// What a run returns, and why it may not, is at [`Simulation::run`]. For a loop of your own take
+/// [`Simulation::begin`], or a [`Stepper`](crate::Stepper).
 ///
 /// `P` is the [`Problem`] that is solved, `I` the method, and `H` is what happens in a run: events,
 /// controllers, checkpoints, trajectories. What is said of a simulation may be said in any order.

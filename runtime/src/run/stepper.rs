@@ -26,22 +26,6 @@ use crate::nonsmooth::interaction::Interaction;
 
 /// A mechanism, a formulation and a one-step method, prepared: takes one step at a time.
 ///
-/// `P` is the [`Problem`] that is solved, `K` the method.
-///
-/// A step has a fixed number of evaluations ([`Rk4`](crate::Rk4) 4,
-/// [`DormandPrince5`](crate::integrate::DormandPrince5) 6), allocates nothing and does not panic.
-///
-/// The equations of motion are solved in the coordinates that the attribute of the mechanism names,
-/// or in others that are asked for. In absolute coordinates a state is one of the bodies. In
-/// relative ones it is a [`JointCoordinates::JointState`]: a start is set in a state of the bodies,
-/// by handle as ever, and [`Stepper::state_of`] takes it over; what is to be read is read of
-/// [`Stepper::bodies`]. Joints of the tree cannot open there; equations that close loops drift or
-/// are stabilised, as the formulation has it.
-///
-/// It has no warnings. A step over the zero of a law that switches is of first order. So is one in
-/// which two points pass each other closely, where a force acts along their line
-/// ([`switches`](crate::guide::switches#limits)).
-///
 /// ```
 /// use holonom::prelude::*;
 ///
@@ -68,6 +52,22 @@ use crate::nonsmooth::interaction::Interaction;
 /// assert!(view.angle(hinge) < 0.4 && view.violation() < 1e-30);
 /// # Ok::<(), Fault>(())
 /// ```
+///
+/// `P` is the [`Problem`] that is solved, `K` the method.
+///
+/// A step has a fixed number of evaluations ([`Rk4`](crate::Rk4) 4,
+/// [`DormandPrince5`](crate::integrate::DormandPrince5) 6), allocates nothing and does not panic.
+///
+/// The equations of motion are solved in the coordinates that the attribute of the mechanism names,
+/// or in others that are asked for. In absolute coordinates a state is one of the bodies. In
+/// relative ones it is a [`JointCoordinates::JointState`]: a start is set in a state of the bodies,
+/// by handle as ever, and [`Stepper::state_of`] takes it over; what is to be read is read of
+/// [`Stepper::bodies`]. Joints of the tree cannot open there; equations that close loops drift or
+/// are stabilised, as the formulation has it.
+///
+/// It has no warnings. A step over the zero of a law that switches is of first order. So is one in
+/// which two points pass each other closely, where a force acts along their line
+/// ([`switches`](crate::guide::switches#limits)).
 pub struct Stepper<P: Solvable, K> {
     pub(crate) dynamics: Dynamics<UnderWay<P>>,
     pub(crate) scheme: K,

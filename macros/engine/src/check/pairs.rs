@@ -51,6 +51,12 @@ impl<'a> Pairs<'a> {
         found
     }
 
+    /// Whether something in the list could not be read: what is missing may be in it.
+    #[must_use]
+    pub fn is_unreadable(&self) -> bool {
+        self.unreadable
+    }
+
     /// Whether a key is there.
     #[must_use]
     pub fn has(&self, key: &str) -> bool {

@@ -116,9 +116,9 @@ pub fn emit(
             #(#constants)*
             #(#splines)*
             #lengths
-
-            #construction
         };
+
+        #construction
         #carrier
     }
 }

@@ -1,4 +1,7 @@
 //! How a struct is made: `Default`, and `new` where it has parameters.
+//!
+//! It stands outside the anonymous constant of all else: there the compiler calls `new` by no name
+//! that a user could write, where it advises it in the place of a `default` that is not there.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -11,12 +14,15 @@ use crate::syntax::words::local;
 pub(super) fn of_mechanism(model: &Model, facade: &TokenStream) -> TokenStream {
     let mechanism = local("mechanism");
     let (checked, refused) = if model.independence.likes.is_empty() {
-        (quote!(parameters::<f64>(&#mechanism)?), TokenStream::new())
+        (
+            quote!(parameters::<::core::primitive::f64>(&#mechanism)?),
+            TokenStream::new(),
+        )
     } else {
         let refused = " A value with which the mechanism cannot be assembled, or with which its equations do not depend on each other \
              as they do at the typical values of the parameters.";
         (
-            quote!(check_likes::<f64>(&#mechanism, ::core::option::Option::None)?),
+            quote!(check_likes::<::core::primitive::f64>(&#mechanism, ::core::option::Option::None)?),
             quote!(#[doc = #refused]),
         )
     };
@@ -129,6 +135,10 @@ fn construction(
         #likes
 
         #[automatically_derived]
+        #[allow(
+            clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, unused,
+            unreachable_pub, unused_qualifications
+        )]
         impl #name {
             #[doc = #documentation]
             #new
@@ -196,7 +206,7 @@ fn given(model: &Model) -> Vec<Given> {
             }
         }
         let kind = match value.kind {
-            ValueKind::Number => quote!(f64),
+            ValueKind::Number => quote!(::core::primitive::f64),
             _ => value.written.clone(),
         };
         let length = likes.len();

@@ -133,9 +133,9 @@ impl Writer<'_> {
 
                 #joints
                 #beside
-
-                #construction
             };
+
+            #construction
         }
     }
 

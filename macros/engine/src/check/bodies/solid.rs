@@ -72,6 +72,7 @@ impl Reader<'_, '_> {
             pairs.refuse(key, FOLLOWS, self.faults);
         }
         let shapes = self.written(single, several, true)?;
+        let owner = (!pairs.is_unreadable()).then_some(owner);
         let weight = self.weight(&shapes, mass, density, owner)?;
         match &shapes[..] {
             [shape] if orientation.is_none() || matches!(shape.axes, Axes::Body) => {
@@ -120,7 +121,7 @@ impl Reader<'_, '_> {
         shapes: &[Formulas<'_>],
         mass: Option<&'e Expr>,
         density: Option<&'e Expr>,
-        owner: Span,
+        owner: Option<Span>,
     ) -> Option<Weight<'e>> {
         let name = self.name;
         let own: Vec<&Expr> = shapes.iter().filter_map(|shape| shape.density).collect();
@@ -152,12 +153,12 @@ impl Reader<'_, '_> {
             }
             (None, None) if own.len() == shapes.len() => Some(Weight::Densities),
             (None, None) => {
-                self.faults.at_span(
-                    owner,
-                    format!(
-                        "body `{name}` lacks `density`; give one in kg/m^3, as in `density = 7850.0`, or a `mass` in kg"
-                    ),
+                let message = format!(
+                    "body `{name}` lacks `density`; give one in kg/m^3, as in `density = 7850.0`, or a `mass` in kg"
                 );
+                if let Some(owner) = owner {
+                    self.faults.at_span(owner, message);
+                }
                 None
             }
         }
