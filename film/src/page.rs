@@ -14,6 +14,7 @@ pub(crate) struct Page<'a> {
     pub(crate) markers: &'a [Marker],
     pub(crate) points: &'a [Point],
     pub(crate) shapes: &'a [Shape],
+    pub(crate) meshes: &'a [Mesh],
     pub(crate) wheels: &'a [Wheel],
     pub(crate) racks: &'a [Rack],
     /// Gravity (m/s^2), which points down.
@@ -21,6 +22,7 @@ pub(crate) struct Page<'a> {
     pub(crate) times: &'a [f64],
     /// Seven numbers a body and frame: position (m) and Euler parameters, the scalar first.
     pub(crate) poses: Floats<'a>,
+    pub(crate) ghost: Option<Other<'a>>,
     /// Six numbers an arrow and frame: point (m) and force (N).
     pub(crate) loads: Floats<'a>,
     pub(crate) arrows: &'a [Arrow],
@@ -41,6 +43,29 @@ pub(crate) struct Shape {
     pub(crate) centre: [f64; 3],
     /// Euler parameters, the scalar first.
     pub(crate) axes: [f64; 4],
+}
+
+/// Another run of the same mechanism.
+#[derive(Serialize)]
+pub(crate) struct Other<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) times: &'a [f64],
+    pub(crate) poses: Floats<'a>,
+}
+
+/// A mesh on a body (`None` is the ground), in its axes.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Mesh {
+    pub(crate) body: Option<usize>,
+    /// Such as `#4c8eda`; that of the body without one.
+    pub(crate) colour: Option<String>,
+    /// Its box (m, from the centre of mass).
+    pub(crate) low: [f32; 3],
+    pub(crate) high: [f32; 3],
+    /// Three numbers a corner: parts of the box, in steps of 1/65535.
+    pub(crate) corners: Shorts,
+    /// Three corners a triangle, anticlockwise from outside.
+    pub(crate) faces: Shorts,
 }
 
 /// A toothed wheel on a body (`None` is the ground), in its axes.
@@ -144,6 +169,17 @@ pub(crate) struct Remark {
 pub(crate) struct Floats<'a>(pub(crate) &'a [f32]);
 
 impl Serialize for Floats<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let bytes: Vec<u8> = self.0.iter().flat_map(|x| x.to_le_bytes()).collect();
+        serializer.serialize_str(&STANDARD.encode(bytes))
+    }
+}
+
+/// Whole numbers of 16 bits, little-endian, in base 64.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Shorts(pub(crate) Vec<u16>);
+
+impl Serialize for Shorts {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let bytes: Vec<u8> = self.0.iter().flat_map(|x| x.to_le_bytes()).collect();
         serializer.serialize_str(&STANDARD.encode(bytes))
