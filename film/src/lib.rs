@@ -59,6 +59,7 @@ mod description;
 mod fault;
 mod gears;
 mod gltf;
+mod labels;
 mod page;
 mod picture;
 mod record;
