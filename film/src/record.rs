@@ -11,7 +11,9 @@ use crate::anchors::anchors;
 use crate::description::{arrows, bodies, elements, markers, placement, points, shapes};
 use crate::fault::FilmError;
 use crate::gears::{Gearing, Proportion, proportions};
+#[cfg(feature = "gltf")]
 use crate::gltf::gltf;
+use crate::json::Json as _;
 use crate::page::{
     Arrow, Element, Floats, Marker, Mesh, Other, Page, Point, Reading, Remark, Shape,
 };
@@ -30,7 +32,7 @@ pub struct Film<M> {
     markers: Vec<Marker>,
     points: Vec<Point>,
     shapes: Vec<Shape>,
-    meshes: Vec<Mesh>,
+    pub(crate) meshes: Vec<Mesh>,
     proportions: Vec<Proportion>,
     gravity: [f64; 3],
     arrows: Vec<Arrow>,
@@ -305,9 +307,8 @@ impl<M: Mechanism> Film<M> {
                 .collect(),
             warnings: &self.warnings,
         };
-        let data = serde_json::to_string(&page).map_err(|error| FilmError::Write(error.into()))?;
-        // A name may hold what ends a script.
-        let data = data.replace('<', "\\u003c");
+        let mut data = String::new();
+        page.write(&mut data);
         Ok(PAGE.replacen(PLACE, &data, 1))
     }
 
@@ -322,16 +323,18 @@ impl<M: Mechanism> Film<M> {
     }
 
     /// The film as a glTF file of one piece, for Blender, three.js, game engines and slides: a node
-    /// a body, and an animation. Angles between frames turn the short way: record them closely.
+    /// a body, and an animation. Angles between frames turn the short way: record them closely. Needs
+    /// the feature `gltf`.
     ///
     /// # Errors
     /// As [`Film::html`].
+    #[cfg(feature = "gltf")]
     pub fn gltf(&self) -> Result<String, FilmError> {
         self.check()?;
         let names: Vec<&str> = M::REPORT.bodies.iter().map(|body| body.name).collect();
         let text = gltf(
             &self.subject(&elements::<M>(), &self.traced()),
-            &self.shapes,
+            (&self.shapes, &self.meshes),
             &names,
         );
         text.map_err(|error| FilmError::Write(error.into()))
@@ -341,6 +344,7 @@ impl<M: Mechanism> Film<M> {
     ///
     /// # Errors
     /// As [`Film::save`].
+    #[cfg(feature = "gltf")]
     pub fn save_gltf(&self, path: impl AsRef<Path>) -> Result<(), FilmError> {
         fs::write(path, self.gltf()?).map_err(FilmError::Write)
     }

@@ -123,13 +123,13 @@ function record() {
   id("video").setAttribute("aria-pressed", true);
   play(true);
 }
-const shown = { reactions: film.arrows.length > 0 && film.showArrows, centres: true, frames: false, ghost: true, points: true, traces: true, joints: true, forces: true };
+const shown = { reactions: film.arrows.length > 0 && film.showArrows, centres: film.meshes.length === 0, frames: false, ghost: true, points: true, traces: true, joints: true, forces: true };
 for (const name of Object.keys(shown)) {
   const button = id(`show-${name}`);
   const apply = () => {
     set.layers[name].visible = shown[name];
     button.setAttribute("aria-pressed", shown[name]);
-    id("scale").hidden = !shown.reactions;
+    id("scale").hidden = !shown.reactions || set.perMetre === null;
   };
   button.onclick = () => {
     shown[name] = !shown[name];
@@ -142,7 +142,7 @@ id("show-ghost").hidden = !film.ghost;
 id("show-points").hidden = film.points.length === 0;
 id("show-traces").hidden = film.traces.length === 0;
 id("show-forces").hidden = !film.elements.some((element) => element.type === "force");
-id("scale").textContent = `arrows: ${+digits(set.perMetre)} N to 1 m`;
+if (set.perMetre !== null) id("scale").textContent = `arrows: ${+digits(set.perMetre)} N to 1 m`;
 
 // What can be hidden.
 function entry(kind, index, said, colour) {

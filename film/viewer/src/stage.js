@@ -80,7 +80,7 @@ export function stage(scene) {
   });
   for (const { name, body, at } of film.points) {
     const holder = new THREE.Group();
-    holder.add(shapes.mark(at, size, body, `${name}: point on ${body === null ? "ground" : film.bodies[body].name}`));
+    holder.add(shapes.mark(at, size * (body === null ? 1 : Math.max(0.45, smallOn(body))), body, `${name}: point on ${body === null ? "ground" : film.bodies[body].name}`));
     if (body === null) layers.points.add(holder);
     else ride(layers.points, body, holder);
   }
@@ -238,7 +238,7 @@ export function stage(scene) {
     for (const object of all)
       object.traverse(({ material }) => material?.emissive?.setHex(lit.includes(object) ? 0x553311 : 0));
   };
-  return { box, places, size, up, normal: normal(size), bodies, layers, show, hide, light, perMetre };
+  return { box, places, size, up, normal: normal(size), bodies, layers, show, hide, light, perMetre: largest > 0 ? perMetre : null };
 }
 
 /** A body of another run: what is seen through. */
