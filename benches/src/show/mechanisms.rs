@@ -71,6 +71,7 @@ pub struct Axle {
     #[body(
         shape = tube(outer = 0.05, inner = 0.04, from = [0.0, -0.7, 0.3], to = [0.0, 0.7, 0.3]),
         density = 7800.0,
+        orientation = rpy(0.0, 0.0, 0.0),
         velocity = [0.0, 0.0, -0.9],
         angular_velocity = [1.4, 0.0, 0.0]
     )]
@@ -78,6 +79,7 @@ pub struct Axle {
     #[body(
         shape = disc(radius = 0.3, thickness = 0.16, at = [0.0, 0.7, 0.3], axis = [0.0, 1.0, 0.0]),
         mass = 18.0,
+        orientation = rpy(0.0, 0.0, 0.0),
         velocity = [0.0, 0.0, 1.4 * 0.7 - 0.9],
         angular_velocity = [1.4, 12.0, 0.0]
     )]
@@ -85,6 +87,7 @@ pub struct Axle {
     #[body(
         shape = disc(radius = 0.3, thickness = 0.16, at = [0.0, -0.7, 0.3], axis = [0.0, 1.0, 0.0]),
         mass = 18.0,
+        orientation = rpy(0.0, 0.0, 0.0),
         velocity = [0.0, 0.0, -1.4 * 0.7 - 0.9],
         angular_velocity = [1.4, 12.0, 0.0]
     )]
