@@ -176,15 +176,14 @@ fn meshes(robot: &Robot, first: usize) -> Vec<Mesh> {
     let meshes = of_link.flat_map(|(link, place)| {
         let body = place.group.checked_sub(first);
         let centre = centre(robot, place.group, body);
-        let meshes = link.visuals.iter().filter_map(move |visual| match visual {
+        link.visuals.iter().filter_map(move |visual| match visual {
             Visual::Mesh(frame, mesh) => {
                 let mut within = place.within.compose(frame);
                 within.origin -= centre;
                 Some(mesh.on(body, &within))
             }
             _ => None,
-        });
-        meshes
+        })
     });
     meshes.collect()
 }

@@ -22,11 +22,9 @@ pub(super) fn read(text: &str) -> Result<Vec<Part>, String> {
         parts: Vec::new(),
     };
     let root = xml.root_element();
-    let unit = all(root, "asset").flat_map(|asset| all(asset, "unit"));
-    let unit = unit.filter_map(|unit| unit.attribute("meter")?.trim().parse().ok());
-    let unit = unit
-        .filter(|metres: &f64| *metres > 0.0 && metres.is_finite())
-        .next();
+    let units = all(root, "asset").flat_map(|asset| all(asset, "unit"));
+    let mut units = units.filter_map(|unit| unit.attribute("meter")?.trim().parse().ok());
+    let unit = units.find(|metres: &f64| *metres > 0.0 && metres.is_finite());
     let whole = Matrix4::new_scaling(unit.unwrap_or(1.0));
     let scenes = || xml.descendants().filter(|node| is(*node, "visual_scene"));
     let shown = xml
@@ -103,22 +101,17 @@ impl<'n, 'i> File<'n, 'i> {
     ) {
         for mesh in all(geometry, "mesh") {
             for primitive in mesh.children().filter(Node::is_element) {
-                let Some((points, faces)) = self.primitive(primitive) else {
-                    continue;
-                };
-                let mut part = Part {
-                    colour: self.colour(primitive, shown),
-                    points,
-                    faces,
-                };
-                part.transform(place);
-                self.parts.push(part);
+                if let Some(mut part) = self.primitive(primitive) {
+                    part.colour = self.colour(primitive, shown);
+                    part.transform(place);
+                    self.parts.push(part);
+                }
             }
         }
     }
 
     /// Points and triangles; nothing of what is no surface.
-    fn primitive(&self, primitive: Node<'n, 'i>) -> Option<(Vec<Vector3<f64>>, Vec<[u32; 3]>)> {
+    fn primitive(&self, primitive: Node<'n, 'i>) -> Option<Part> {
         let offset = |input: &Node<'_, '_>| {
             let text = input.attribute("offset").unwrap_or("0");
             text.trim().parse::<usize>().ok()
@@ -157,10 +150,11 @@ impl<'n, 'i> File<'n, 'i> {
             let edges = polygon.get(1..).unwrap_or_default().windows(2);
             edges.map(|edge| [polygon[0], edge[0], edge[1]]).collect()
         };
-        Some((
-            self.points(*vertex)?,
-            polygons.iter().flat_map(fan).collect(),
-        ))
+        Some(Part {
+            colour: None,
+            points: self.points(*vertex)?,
+            faces: polygons.iter().flat_map(fan).collect(),
+        })
     }
 
     /// The points of the vertices that an input names.

@@ -98,11 +98,11 @@ fn dae() -> String {
 fn formats_give_one_solid() -> Result {
     let folder = folder("formats")?;
     fs::write(folder.join("wall.mtl"), MTL)?;
-    let cases: [(&str, Vec<u8>, &[Option<&str>]); 4] = [
-        ("text.stl", stl_text().into_bytes(), &[None]),
-        ("binary.STL", stl_binary(), &[None]),
-        ("wall.obj", obj().into_bytes(), &[Some("#3380ff")]),
-        ("arm.dae", dae().into_bytes(), &[Some("#00ff00"), None]),
+    let cases = [
+        ("text.stl", stl_text().into_bytes(), vec![None]),
+        ("binary.STL", stl_binary(), vec![None]),
+        ("wall.obj", obj().into_bytes(), vec![Some("#3380ff")]),
+        ("arm.dae", dae().into_bytes(), vec![Some("#00ff00"), None]),
     ];
     let rod = RodPendulum::default();
     for (name, bytes, colours) in cases {
