@@ -1,6 +1,6 @@
 //! `study show` films what the other studies measure.
 
-use holonom_benches::show::{scene, scenes};
+use holonom_benches::show::{first, scene, scenes};
 use holonom_benches::trade;
 
 #[test]
@@ -11,6 +11,15 @@ fn every_problem_can_be_shown() {
     }
     let refused = scene("no such").expect_err("no problem");
     assert!(refused.contains("four-bar, pendulum"), "{refused}");
+}
+
+/// What a reader sees first is well: it moves, and nothing is warned about.
+#[test]
+fn what_is_shown_first_has_no_warnings() {
+    for scene in first() {
+        let film = scene.record(scene.seconds).expect(scene.name);
+        assert_eq!(film.warnings, "no warnings", "{}", scene.name);
+    }
 }
 
 #[test]

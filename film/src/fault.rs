@@ -1,5 +1,6 @@
 //! Why a film cannot be shown.
 
+use std::path::PathBuf;
 use std::{error, fmt, io};
 
 /// Why there is no page.
@@ -15,6 +16,21 @@ pub enum FilmError {
     },
     /// The file could not be written.
     Write(io::Error),
+    /// A file of a mesh, or a URDF file that names meshes, could not be read.
+    Mesh {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+#[cfg(feature = "meshes")]
+impl FilmError {
+    pub(crate) fn mesh(file: &std::path::Path, reason: String) -> Self {
+        let file = file.into();
+        Self::Mesh { file, reason }
+    }
 }
 
 impl fmt::Display for FilmError {
@@ -26,6 +42,7 @@ impl fmt::Display for FilmError {
             ),
             Self::NotFinite { time } => write!(f, "a position at {time} s is not a number"),
             Self::Write(_) => write!(f, "the film could not be written"),
+            Self::Mesh { file, reason } => write!(f, "{}: {reason}", file.display()),
         }
     }
 }

@@ -17,9 +17,9 @@ use gltf_json::validation::{Checked::Valid, USize64};
 use gltf_json::{Accessor, Animation, Buffer, Extras, Index, Material, Mesh, Root, buffer};
 use holonom::nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
-use crate::page::Shape;
+use crate::page::{self, Shape};
 use crate::solid::Surface;
-use crate::subject::{Subject, colour};
+use crate::subject::{GROUND, Subject, colour};
 
 /// The thickness of a bar, over the size of the mechanism.
 const THIN: f64 = 0.018;
@@ -27,15 +27,15 @@ const THIN: f64 = 0.018;
 /// The text of a file; numbers are in it.
 pub(crate) fn gltf(
     subject: &Subject<'_>,
-    shapes: &[Shape],
+    (shapes, meshes): (&[Shape], &[page::Mesh]),
     names: &[&str],
 ) -> Result<String, serde_json::Error> {
     let mut file = File::default();
     let size = subject.size();
     let bodies: Vec<Index<Node>> = (0..subject.bodies)
         .map(|body| {
-            let surface = surface(subject, shapes, body, size);
-            let mesh = file.mesh(&surface, colour(body), names[body]);
+            let own = of_body(subject, (shapes, meshes), body, size);
+            let mesh = file.mesh(&own, names[body]);
             file.root.push(Node {
                 mesh: Some(mesh),
                 name: Some(names[body].into()),
@@ -48,7 +48,16 @@ pub(crate) fn gltf(
         file.root.nodes[node.value()].children = points;
     }
     file.animate(subject, &bodies);
-    let ground = file.points(subject, None).unwrap_or_default();
+    let mut ground = file.points(subject, None).unwrap_or_default();
+    let root = drawn(meshes, None, GROUND);
+    if !root.is_empty() {
+        let mesh = file.mesh(&root, "ground");
+        ground.push(file.root.push(Node {
+            mesh: Some(mesh),
+            name: Some("ground".into()),
+            ..Node::default()
+        }));
+    }
     let up = Vector3::from(subject.gravity)
         .try_normalize(0.0)
         .map_or(Vector3::z(), |down| -down);
@@ -73,7 +82,47 @@ pub(crate) fn gltf(
     file.finished()
 }
 
-/// What a body looks like, in its axes.
+/// The surfaces of a body by their colours, in its axes.
+fn of_body<'a>(
+    subject: &Subject<'_>,
+    (shapes, meshes): (&[Shape], &'a [page::Mesh]),
+    body: usize,
+    size: f64,
+) -> Vec<(Surface, &'a str)> {
+    let mut own = drawn(meshes, Some(body), colour(body));
+    let has_shapes = shapes.iter().any(|shape| shape.body == body);
+    if has_shapes || own.is_empty() {
+        own.push((surface(subject, shapes, body, size), colour(body)));
+    }
+    own
+}
+
+/// The meshes of a body, or of the ground, by their colours.
+fn drawn<'a>(
+    meshes: &'a [page::Mesh],
+    body: Option<usize>,
+    colour: &'a str,
+) -> Vec<(Surface, &'a str)> {
+    let own = meshes.iter().filter(|mesh| mesh.body == body);
+    let surfaces = own.map(|mesh| {
+        let step = |k: usize, at: u16| {
+            let part = f32::from(at) / f32::from(u16::MAX);
+            mesh.low[k] + part * (mesh.high[k] - mesh.low[k])
+        };
+        let corners = mesh.corners.0.chunks_exact(3);
+        let corners = corners.map(|at| Vector3::from([0, 1, 2].map(|k| step(k, at[k]))));
+        let corners: Vec<_> = corners.collect();
+        let faces = mesh.faces.0.chunks_exact(3);
+        let faces = faces.map(|face| [0, 1, 2].map(|k| corners[usize::from(face[k])]));
+        (
+            Surface::flat(faces),
+            mesh.colour.as_deref().unwrap_or(colour),
+        )
+    });
+    surfaces.collect()
+}
+
+/// What a body without meshes looks like, in its axes.
 fn surface(subject: &Subject<'_>, shapes: &[Shape], body: usize, size: f64) -> Surface {
     let mut surface = Surface::default();
     let own: Vec<&Shape> = shapes.iter().filter(|shape| shape.body == body).collect();
@@ -183,7 +232,21 @@ impl File {
         })
     }
 
-    fn mesh(&mut self, surface: &Surface, colour: &str, name: &str) -> Index<Mesh> {
+    fn mesh(&mut self, surfaces: &[(Surface, &str)], name: &str) -> Index<Mesh> {
+        let primitives = surfaces
+            .iter()
+            .map(|(surface, colour)| self.primitive(surface, colour, name));
+        let primitives = primitives.collect();
+        self.root.push(Mesh {
+            extensions: None,
+            extras: Extras::default(),
+            name: Some(name.into()),
+            primitives,
+            weights: None,
+        })
+    }
+
+    fn primitive(&mut self, surface: &Surface, colour: &str, name: &str) -> Primitive {
         let flat = |vectors: &[Vector3<f32>]| {
             vectors
                 .iter()
@@ -202,24 +265,18 @@ impl File {
             },
             ..Material::default()
         });
-        self.root.push(Mesh {
+        Primitive {
+            attributes: BTreeMap::from([
+                (Valid(Semantic::Positions), points),
+                (Valid(Semantic::Normals), normals),
+            ]),
             extensions: None,
             extras: Extras::default(),
-            name: Some(name.into()),
-            primitives: vec![Primitive {
-                attributes: BTreeMap::from([
-                    (Valid(Semantic::Positions), points),
-                    (Valid(Semantic::Normals), normals),
-                ]),
-                extensions: None,
-                extras: Extras::default(),
-                indices: None,
-                material: Some(material),
-                mode: Valid(Mode::Triangles),
-                targets: None,
-            }],
-            weights: None,
-        })
+            indices: None,
+            material: Some(material),
+            mode: Valid(Mode::Triangles),
+            targets: None,
+        }
     }
 
     /// Positions and orientations over time.

@@ -11,8 +11,12 @@ use crate::anchors::anchors;
 use crate::description::{arrows, bodies, elements, markers, placement, points, shapes};
 use crate::fault::FilmError;
 use crate::gears::{Gearing, Proportion, proportions};
+#[cfg(feature = "gltf")]
 use crate::gltf::gltf;
-use crate::page::{Arrow, Element, Floats, Marker, Page, Point, Reading, Remark, Shape};
+use crate::json::Json as _;
+use crate::page::{
+    Arrow, Element, Floats, Marker, Mesh, Other, Page, Point, Reading, Remark, Shape,
+};
 use crate::sketch::sketch;
 use crate::subject::Subject;
 
@@ -28,17 +32,27 @@ pub struct Film<M> {
     markers: Vec<Marker>,
     points: Vec<Point>,
     shapes: Vec<Shape>,
+    pub(crate) meshes: Vec<Mesh>,
     proportions: Vec<Proportion>,
     gravity: [f64; 3],
     arrows: Vec<Arrow>,
     shows_arrows: bool,
     times: Vec<f64>,
     poses: Vec<f32>,
+    ghost: Option<Ghost>,
     loads: Vec<f32>,
     traces: Vec<Trace>,
     readings: Vec<Values>,
     warnings: Vec<Remark>,
     mechanism: PhantomData<fn() -> M>,
+}
+
+/// Another run.
+#[derive(Clone, Debug)]
+struct Ghost {
+    title: String,
+    times: Vec<f64>,
+    poses: Vec<f32>,
 }
 
 #[derive(Clone, Debug)]
@@ -71,12 +85,14 @@ impl<M: Mechanism> Film<M> {
             markers: Vec::new(),
             points: Vec::new(),
             shapes: Vec::new(),
+            meshes: Vec::new(),
             proportions: Vec::new(),
             gravity: [0.0; 3],
             arrows: Vec::new(),
             shows_arrows: false,
             times: Vec::new(),
             poses: Vec::new(),
+            ghost: None,
             loads: Vec::new(),
             traces: Vec::new(),
             readings: Vec::new(),
@@ -211,6 +227,16 @@ impl<M: Mechanism> Film<M> {
         values.push(value.to_f64() as f32);
     }
 
+    /// Shows another run of the mechanism too: its bodies are seen through, at the same times, under
+    /// the title of its film. Before and after its frames they stand still.
+    pub fn ghost(&mut self, other: &Self) {
+        self.ghost = (other.frames() > 0).then(|| Ghost {
+            title: other.title.clone(),
+            times: other.times.clone(),
+            poses: other.poses.clone(),
+        });
+    }
+
     /// Shows the warnings of a run, with a mark at the time of each that has one.
     pub fn warnings(&mut self, warnings: &Warnings) {
         self.warnings = warnings
@@ -257,11 +283,17 @@ impl<M: Mechanism> Film<M> {
             markers: &markers,
             points: &self.points,
             shapes: &self.shapes,
+            meshes: &self.meshes,
             wheels: &gearing.wheels,
             racks: &gearing.racks,
             gravity: self.gravity,
             times: &self.times,
             poses: Floats(&self.poses),
+            ghost: self.ghost.as_ref().map(|ghost| Other {
+                title: &ghost.title,
+                times: &ghost.times,
+                poses: Floats(&ghost.poses),
+            }),
             loads: Floats(&self.loads),
             arrows: &self.arrows,
             show_arrows: self.shows_arrows,
@@ -275,9 +307,8 @@ impl<M: Mechanism> Film<M> {
                 .collect(),
             warnings: &self.warnings,
         };
-        let data = serde_json::to_string(&page).map_err(|error| FilmError::Write(error.into()))?;
-        // A name may hold what ends a script.
-        let data = data.replace('<', "\\u003c");
+        let mut data = String::new();
+        page.write(&mut data);
         Ok(PAGE.replacen(PLACE, &data, 1))
     }
 
@@ -292,16 +323,18 @@ impl<M: Mechanism> Film<M> {
     }
 
     /// The film as a glTF file of one piece, for Blender, three.js, game engines and slides: a node
-    /// a body, and an animation. Angles between frames turn the short way: record them closely.
+    /// a body, and an animation. Angles between frames turn the short way: record them closely. Needs
+    /// the feature `gltf`.
     ///
     /// # Errors
     /// As [`Film::html`].
+    #[cfg(feature = "gltf")]
     pub fn gltf(&self) -> Result<String, FilmError> {
         self.check()?;
         let names: Vec<&str> = M::REPORT.bodies.iter().map(|body| body.name).collect();
         let text = gltf(
             &self.subject(&elements::<M>(), &self.traced()),
-            &self.shapes,
+            (&self.shapes, &self.meshes),
             &names,
         );
         text.map_err(|error| FilmError::Write(error.into()))
@@ -311,6 +344,7 @@ impl<M: Mechanism> Film<M> {
     ///
     /// # Errors
     /// As [`Film::save`].
+    #[cfg(feature = "gltf")]
     pub fn save_gltf(&self, path: impl AsRef<Path>) -> Result<(), FilmError> {
         fs::write(path, self.gltf()?).map_err(FilmError::Write)
     }
@@ -329,12 +363,15 @@ impl<M: Mechanism> Film<M> {
             return Err(FilmError::Empty);
         }
         let numbers = (7 * M::REPORT.bodies.len()).max(1);
-        match self.poses.iter().position(|x| !x.is_finite()) {
-            Some(place) => Err(FilmError::NotFinite {
-                time: self.times[place / numbers],
-            }),
-            None => Ok(()),
+        let ghost = self.ghost.iter();
+        let ghost = ghost.map(|ghost| (&ghost.times, &ghost.poses));
+        for (times, poses) in ghost.chain([(&self.times, &self.poses)]) {
+            if let Some(place) = poses.iter().position(|x| !x.is_finite()) {
+                let time = times[place / numbers];
+                return Err(FilmError::NotFinite { time });
+            }
         }
+        Ok(())
     }
 
     /// Writes the page to a file.

@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use holonom::nalgebra::{Rotation3, Vector3};
 
 use crate::gears::Gearing;
+use crate::labels::{self, Obstacles};
 use crate::page::{Element, Marker, Wheel};
 use crate::subject::{GROUND, Subject, colour, colour_of};
 
@@ -92,7 +93,8 @@ pub(crate) fn sketch(
          style=\"max-width:{WIDTH}px\" role=\"img\"><title>{title} in its reference configuration</title><style>\
          .holonom-sketch text{{font:12px sans-serif;fill:currentColor}}.holonom-sketch .view{{font-size:11px;opacity:.7}}\
          .holonom-sketch .head{{font-weight:600}}.holonom-sketch .axis{{stroke:currentColor;stroke-width:1.2;stroke-dasharray:5 3}}\
-         .holonom-sketch .pin{{fill:#fff;stroke:#39414f;stroke-width:1.6}}.holonom-sketch .number{{font-size:10px;fill:#222;text-anchor:middle}}\
+         .holonom-sketch .pin,.holonom-sketch .label{{fill:#fff;stroke:#39414f;stroke-width:1.2}}.holonom-sketch .lead{{stroke:currentColor;stroke-width:1}}\
+         .holonom-sketch .number{{font-size:10px;fill:#222;text-anchor:middle}}\
          .holonom-sketch .foot{{fill:#8a93a3}}.holonom-sketch .force{{stroke:#8a93a3;stroke-width:2.5;stroke-dasharray:2 3}}\
          .holonom-sketch .centre{{fill:none;stroke:currentColor;stroke-width:1.2}}</style>\
          <g class=\"holonom-sketch\">{text}</g></svg>\n"
@@ -190,6 +192,7 @@ fn panel(
         "<text class=\"view\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>",
         view.title
     );
+    let mut obstacles = Obstacles::default();
     for (marker, _) in subject.feet() {
         let [x, y] = at(subject.place(0, None, marker.at));
         let (a, b, c) = (x - 10.0, x + 10.0, y + 15.0);
@@ -211,6 +214,7 @@ fn panel(
             let [x1, y1] = at(subject.place(0, Some(body), from.into()));
             let [x2, y2] = at(subject.place(0, Some(body), to.into()));
             let colour = colour(body);
+            obstacles.line([x1, y1], [x2, y2]);
             let _ = write!(
                 text,
                 "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"{colour}\" stroke-width=\"7\" stroke-linecap=\"round\"/>"
@@ -224,6 +228,9 @@ fn panel(
         );
     }
     for (body, circle) in circles {
+        for place in circle {
+            obstacles.point(at(*place));
+        }
         let places = circle.iter().map(|place| at(*place));
         let places: Vec<String> = places.map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
         let (places, colour) = (places.join(" "), body.map_or(GROUND, colour));
@@ -241,6 +248,7 @@ fn panel(
         if let (Some(from), Some(to)) = (ends.next(), ends.next_back()) {
             let [x1, y1] = at(subject.place(0, from.body, from.at));
             let [x2, y2] = at(subject.place(0, to.body, to.at));
+            obstacles.line([x1, y1], [x2, y2]);
             let _ = write!(
                 text,
                 "<line class=\"force\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
@@ -255,6 +263,7 @@ fn panel(
             "<path class=\"point\" d=\"{}\" fill=\"{colour}\" stroke=\"#fff\"><title>{name}</title></path>",
             diamond([x, y])
         );
+        obstacles.point([x, y]);
     }
     let joints: Vec<&Element> = subject
         .elements
@@ -276,6 +285,7 @@ fn panel(
             let axis = subject.place(0, body, axis) - subject.place(0, body, [0.0; 3]);
             let along = axis * (22.0 / scale);
             let ([x1, y1], [x2, y2]) = (at(point - along), at(point + along));
+            obstacles.line([x1, y1], [x2, y2]);
             let _ = write!(
                 text,
                 "<line class=\"axis\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
@@ -288,17 +298,15 @@ fn panel(
             None => labels.push((place, vec![joint + 1])),
         }
     }
-    for ([x, y], several) in labels {
-        let number: Vec<String> = several.iter().map(ToString::to_string).collect();
-        let number = number.join(", ");
-        let half = 4.0 + 2.9 * number.chars().count() as f64;
-        let (left, over, wide, base) = (x - half, y - 7.5, 2.0 * half, y + 3.5);
-        let _ = write!(
-            text,
-            "<rect class=\"pin\" x=\"{left:.1}\" y=\"{over:.1}\" width=\"{wide:.1}\" height=\"15\" rx=\"7.5\"/>\
-             <text class=\"number\" x=\"{x:.1}\" y=\"{base:.1}\">{number}</text>"
-        );
-    }
+    let labels: Vec<_> = labels
+        .into_iter()
+        .map(|(place, several)| {
+            let numbers: Vec<String> = several.iter().map(ToString::to_string).collect();
+            (place, numbers.join(", "))
+        })
+        .collect();
+    let within = [left, top, left + wide, top + height];
+    labels::draw(text, &labels, obstacles, within);
     height
 }
 

@@ -92,6 +92,16 @@ impl Surface {
         surface
     }
 
+    /// Flat triangles.
+    pub(crate) fn flat(faces: impl Iterator<Item = [Vector3<f32>; 3]>) -> Self {
+        let mut surface = Self::default();
+        for [a, b, c] in faces {
+            let normal = (b - a).cross(&(c - a)).normalize();
+            surface.face([a, b, c].map(|corner| (corner, normal)));
+        }
+        surface
+    }
+
     /// A triangle, unless it is a line.
     fn face(&mut self, corners: [(Vector3<f32>, Vector3<f32>); 3]) {
         let [(a, _), (b, _), (c, _)] = corners;

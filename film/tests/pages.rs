@@ -185,6 +185,30 @@ fn readings_have_a_value_for_each_frame_and_warnings_their_time() -> Result<(), 
 }
 
 #[test]
+fn a_second_run_is_a_ghost_with_its_own_times() -> Result<(), Box<dyn Error>> {
+    let run = |title: &str, step: f64| -> Result<_, Box<dyn Error>> {
+        let mut film = Film::new().titled(title);
+        Simulation::new(&RodPendulum::default(), StandardLagrange, Rk4::every(0.05)).run(
+            0.0..=0.2,
+            every(step),
+            |sample| film.record(sample),
+        )?;
+        Ok(film)
+    };
+    let (mut film, other) = (run("coarse", 0.1)?, run("fine", 0.05)?);
+    assert!(data(&film.html()?)["ghost"].is_null());
+    film.ghost(&other);
+    let (page, alone) = (data(&film.html()?), data(&other.html()?));
+    assert_eq!(page["ghost"]["title"], "fine");
+    assert_eq!(page["ghost"]["times"], alone["times"]);
+    assert_eq!(page["ghost"]["poses"], alone["poses"]);
+    assert_eq!(page["times"].as_array().map(Vec::len), Some(3));
+    film.ghost(&Film::new());
+    assert!(data(&film.html()?)["ghost"].is_null());
+    Ok(())
+}
+
+#[test]
 fn a_title_cannot_end_the_data() -> Result<(), Box<dyn Error>> {
     let title = "</script><script>alert(1)</script><!-- \u{2028}";
     let mut film = Film::new().titled(title);
@@ -367,12 +391,15 @@ fn a_gltf_file_moves_as_the_run_does() -> Result<(), Box<dyn Error>> {
 fn a_sketch_is_to_scale() -> Result<(), Box<dyn Error>> {
     let sketch = Slanted::default().sketch()?;
     let document = roxmltree::Document::parse(&sketch)?;
+    // The pin that a number is beside.
     let number = |wanted: &str| {
         let mut texts = document.descendants();
         let text = texts
             .find(|node| node.attribute("class") == Some("number") && node.text() == Some(wanted));
-        let text = text.expect(wanted);
-        let [x, y] = ["x", "y"].map(|key| text.attribute(key).expect(key).parse::<f64>());
+        let beside = text.and_then(|text| text.parent()).expect(wanted);
+        let mut pins = beside.children();
+        let pin = pins.find(|node| node.has_tag_name("circle")).expect(wanted);
+        let [x, y] = ["cx", "cy"].map(|key| pin.attribute(key).expect(key).parse::<f64>());
         Ok::<_, std::num::ParseFloatError>([x?, y?])
     };
     let [[x1, y1], [x2, y2], [x3, y3]] = [number("1")?, number("2")?, number("3")?];

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::inertias::is_odd;
-use crate::mechanism::{Body, Joint, LinkFrame, Mechanism, Mimic, Motor, Options};
+use crate::mechanism::{Body, Joint, LinkFrame, Mechanism, Mesh, Mimic, Motor, Options};
 use crate::names::{Names, snake_case, type_name};
 use crate::robot::Robot;
 use crate::spatial::{clean, euler_parameters, number};
@@ -41,6 +41,7 @@ pub(crate) fn mechanism(robot: &Robot, options: &Options) -> Mechanism {
         bodies,
         joints,
         frames: Vec::new(),
+        meshes: meshes(robot, first),
         notes: robot.notes.clone(),
     };
     for (place, body) in mechanism.bodies.iter_mut().enumerate() {
@@ -65,6 +66,7 @@ fn body(robot: &Robot, group: &Group, names: &mut Names) -> Body {
                     let within = place.within.compose(frame);
                     shapes.push(solid.on_body(&within, &place.global.compose(frame)));
                 }
+                Visual::Mesh(_, mesh) => visuals.push(mesh.name()),
                 Visual::Named(name) => visuals.push(name.clone()),
             }
         }
@@ -151,11 +153,7 @@ fn frames(robot: &Robot, first: usize, fields: &mut Names) -> Vec<LinkFrame> {
             .zip(&tree.places)
             .map(|((number, link), place)| {
                 let body = place.group.checked_sub(first);
-                let inertia = tree.groups[place.group].inertia;
-                // On the ground the frame of the root, which is global.
-                let centre = inertia
-                    .filter(|_| body.is_some())
-                    .map_or(Vector3::zeros(), |i| i.centre);
+                let centre = centre(robot, place.group, body);
                 let is_fixed = body.is_some() && tree.groups[place.group].links[0] != number;
                 LinkFrame {
                     link: link.name.clone(),
@@ -169,6 +167,33 @@ fn frames(robot: &Robot, first: usize, fields: &mut Names) -> Vec<LinkFrame> {
                 }
             });
     frames.collect()
+}
+
+/// The meshes of all links. `first` is the group that is the first body.
+fn meshes(robot: &Robot, first: usize) -> Vec<Mesh> {
+    let (document, tree) = (&robot.document, &robot.tree);
+    let of_link = document.links.iter().zip(&tree.places);
+    let meshes = of_link.flat_map(|(link, place)| {
+        let body = place.group.checked_sub(first);
+        let centre = centre(robot, place.group, body);
+        link.visuals.iter().filter_map(move |visual| match visual {
+            Visual::Mesh(frame, mesh) => {
+                let mut within = place.within.compose(frame);
+                within.origin -= centre;
+                Some(mesh.on(body, &within))
+            }
+            _ => None,
+        })
+    });
+    meshes.collect()
+}
+
+/// What frames of a group are given from, in the frame of its first link: the centre of mass, on
+/// the ground the frame itself, which is global.
+fn centre(robot: &Robot, group: usize, body: Option<usize>) -> Vector3<f64> {
+    let inertia = robot.tree.groups[group].inertia;
+    let inertia = inertia.filter(|_| body.is_some());
+    inertia.map_or(Vector3::zeros(), |inertia| inertia.centre)
 }
 
 fn rows(tensor: &Matrix3<f64>) -> [[f64; 3]; 3] {

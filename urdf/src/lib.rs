@@ -62,7 +62,7 @@
 //! | `friction` | a comment and the constant `FRICTION`; the equations do not have it |
 //! | frames of links | constants `.._ORIGIN` and `.._AXES`, for `View::point` |
 //! | `visual` with `box`, `cylinder` or `sphere` | a shape of the body, drawn in films: no mass follows from it; nothing on the ground |
-//! | `visual` with a mesh | a comment with the name of its file |
+//! | `visual` with a mesh | a comment with the name of its file, and [`Mechanism::meshes`]; films draw it by `Film::urdf_meshes` |
 //! | `collision`, `transmission`, `gazebo`, `safety_controller` and the like | nothing |
 //! | elements of other tools | nothing: they are skipped, and the struct names them ([`Robot::notes`]) |
 //!
@@ -123,7 +123,7 @@ mod visuals;
 
 pub use document::{JointKind, Limits};
 pub use faults::{Fault, Faults, Note};
-pub use mechanism::{Body, Joint, LinkFrame, Mechanism, Mimic, Motor, Options, Shape};
+pub use mechanism::{Body, Joint, LinkFrame, Mechanism, Mesh, Mimic, Motor, Options, Shape};
 pub use robot::Robot;
 
 /// The example of the README is compiled.

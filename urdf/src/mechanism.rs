@@ -43,6 +43,8 @@ pub struct Mechanism {
     pub joints: Vec<Joint>,
     /// The frames of all links, in the order of the file.
     pub frames: Vec<LinkFrame>,
+    /// The meshes of all links, in the order of the file, for whoever draws them.
+    pub meshes: Vec<Mesh>,
     /// What is no fault of the file, and yet worth knowing, and what was taken as it is given.
     pub notes: Vec<Note>,
 }
@@ -67,8 +69,8 @@ pub struct Body {
     /// Boxes, cylinders and spheres that the file gives for its links. They are drawn, and have no
     /// mass.
     pub shapes: Vec<Shape>,
-    /// Files of meshes, and other geometries, that the file gives for its links. They are not
-    /// drawn.
+    /// Files of meshes, and other geometries, that the file gives for its links. They are no shapes
+    /// of the body.
     pub visuals: Vec<String>,
     /// No joint of the mechanism names the body.
     pub is_free: bool,
@@ -117,6 +119,26 @@ pub enum Shape {
         /// Its centre.
         at: [f64; 3],
     },
+}
+
+/// A mesh that the file gives for a link.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Mesh {
+    /// As it is named in the file: a path, or an address such as `package://robot/link.stl`.
+    pub file: String,
+    /// Factors of the mesh's coordinates.
+    pub scale: [f64; 3],
+    /// The place in [`Mechanism::bodies`] of the body that it is on. The ground has none.
+    pub body: Option<usize>,
+    /// The origin of the mesh's frame (m) from the centre of mass of the body, body axes; on the
+    /// ground global.
+    pub origin: [f64; 3],
+    /// From axes of the mesh to body axes: Euler parameters, scalar first.
+    pub orientation: [f64; 4],
+    /// The colour of its material: shares of red, green, blue and opacity. None where the file
+    /// gives none.
+    pub colour: Option<[f64; 4]>,
 }
 
 /// A joint that moves.

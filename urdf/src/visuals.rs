@@ -4,16 +4,26 @@ use nalgebra::Vector3;
 use roxmltree::Node;
 
 use crate::elements::{Reader, is};
-use crate::mechanism::Shape;
-use crate::spatial::{Frame, clean};
+use crate::mechanism::{Mesh, Shape};
+use crate::spatial::{Frame, clean, euler_parameters, number};
 
 /// A `<visual>`.
 #[derive(Debug)]
 pub(crate) enum Visual {
     /// A primitive, with the frame of its centre in that of the link.
     Solid(Frame, Solid),
-    /// A mesh, or another geometry: what it is called.
+    /// A mesh, with its frame in that of the link.
+    Mesh(Frame, Surface),
+    /// Another geometry: what it is called.
     Named(String),
+}
+
+/// A mesh of a file.
+#[derive(Debug)]
+pub(crate) struct Surface {
+    pub(crate) file: String,
+    scale: [f64; 3],
+    colour: Option<[f64; 4]>,
 }
 
 /// Lengths in m, none of them zero.
@@ -63,10 +73,38 @@ fn visual(reader: &mut Reader<'_>, node: Node<'_, '_>) -> Option<Visual> {
         }
         _ => None,
     };
-    match solid {
-        Some(solid) => Some(Visual::Solid(reader.origin(node)?, solid)),
-        None => Some(Visual::Named(called(shape))),
+    if let Some(solid) = solid {
+        return Some(Visual::Solid(reader.origin(node)?, solid));
     }
+    let file = shape.attribute("filename").map(str::trim);
+    let (true, Some(file)) = (name == "mesh", file.filter(|file| !file.is_empty())) else {
+        return Some(Visual::Named(called(name)));
+    };
+    let surface = Surface {
+        file: file.to_owned(),
+        scale: reader.vector_or(shape, "scale", [1.0; 3])?.into(),
+        colour: colour(node),
+    };
+    Some(Visual::Mesh(reader.origin(node)?, surface))
+}
+
+/// The colour of the material of a visual: its own, or that of the robot's material of this name.
+fn colour(visual: Node<'_, '_>) -> Option<[f64; 4]> {
+    let material = visual.children().find(|child| is(*child, "material"))?;
+    let own = |material: Node<'_, '_>| {
+        let colour = material.children().find(|child| is(*child, "color"))?;
+        let shares = colour.attribute("rgba")?.split_whitespace();
+        let shares: Vec<f64> = shares.map_while(|word| word.parse().ok()).collect();
+        let shares: [f64; 4] = shares.try_into().ok()?;
+        let are_shares = shares.iter().all(|share| (0.0..=1.0).contains(share));
+        are_shares.then_some(shares)
+    };
+    own(material).or_else(|| {
+        let name = material.attribute("name")?;
+        let robot = visual.document().root_element();
+        let mut all = robot.descendants().filter(|node| is(*node, "material"));
+        all.find_map(|other| own(other).filter(|_| other.attribute("name") == Some(name)))
+    })
 }
 
 /// A length that must be there, and is not negative.
@@ -75,12 +113,29 @@ fn length(reader: &mut Reader<'_>, node: Node<'_, '_>, name: &str) -> Option<f64
     reader.size(node, name)
 }
 
-/// The file of a mesh without its folders; the element otherwise.
-fn called(shape: Node<'_, '_>) -> String {
-    let file = shape.attribute("filename");
-    let file = file.map(|path| path.rsplit(['/', '\\']).next().unwrap_or(path));
-    file.unwrap_or(shape.tag_name().name())
-        .replace(char::is_whitespace, " ")
+/// A name in a line.
+fn called(name: &str) -> String {
+    name.replace(char::is_whitespace, " ")
+}
+
+impl Surface {
+    /// The file without its folders.
+    pub(crate) fn name(&self) -> String {
+        let name = self.file.rsplit(['/', '\\']).next();
+        called(name.unwrap_or(&self.file))
+    }
+
+    /// The mesh on a body, or on the ground, with its frame in theirs.
+    pub(crate) fn on(&self, body: Option<usize>, frame: &Frame) -> Mesh {
+        Mesh {
+            file: self.file.clone(),
+            scale: self.scale,
+            body,
+            origin: clean(frame.origin),
+            orientation: euler_parameters(&frame.rotation).map(number),
+            colour: self.colour,
+        }
+    }
 }
 
 impl Solid {

@@ -1,5 +1,7 @@
-// Readings over time: a chart for each unit, with a cursor at the time of the picture.
+// Readings over time: a chart for each unit, with a cursor at the time of the picture. The wheel
+// zooms all of them, a double click shows the whole run.
 
+import { marks, range, said } from "./axis.js";
 import { film, frameAt } from "./data.js";
 import { colourOf } from "./shapes.js";
 
@@ -17,54 +19,76 @@ export const digits = (value) => {
 /** Whether an angle begins anew between two frames. */
 const wraps = (unit, from, to) => unit === "rad" && Math.abs(to - from) > 1.5 * Math.PI;
 
-/** Round marks on an axis. */
-function marks(low, high, count) {
-  const raw = (high - low) / count || 1;
-  const ten = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 5, 10].map((k) => k * ten).find((k) => k >= 0.7 * raw);
-  const found = [];
-  for (let mark = Math.ceil(low / step) * step; mark <= high + 1e-9 * step; mark += step)
-    found.push(Math.abs(mark) < 1e-9 * step ? 0 : mark);
-  return found;
+const [LEFT, RIGHT] = [64, 12];
+
+/** A chart of lines of one unit, at the end of what is in a place. */
+function chart(place, unit, lines) {
+  const box = document.createElement("figure");
+  const legend = document.createElement("figcaption");
+  const canvas = document.createElement("canvas");
+  canvas.title = "Drag to seek, wheel to zoom, double click for the whole run";
+  box.append(legend, canvas);
+  place.append(box);
+  const values = lines.map((line, k) => {
+    const item = document.createElement("span");
+    item.className = "reading";
+    item.style.setProperty("--colour", hex(colourOf(k)));
+    const value = document.createElement("output");
+    item.append(line.name, " ", value, ` ${unit}`);
+    legend.append(item);
+    return value;
+  });
+  return { box, unit, lines, canvas, values };
 }
 
-export function charts(place, seek) {
-  const units = [...new Set(film.readings.map((reading) => reading.unit))];
-  const drawn = units.map((unit) => {
-    const lines = film.readings.filter((reading) => reading.unit === unit);
-    const box = document.createElement("figure");
-    const legend = document.createElement("figcaption");
-    const canvas = document.createElement("canvas");
-    box.append(legend, canvas);
-    place.append(box);
-    const values = lines.map((line, k) => {
-      const item = document.createElement("span");
-      item.className = "reading";
-      item.style.setProperty("--colour", hex(colourOf(k)));
-      const value = document.createElement("output");
-      item.append(line.name, " ", value, ` ${unit}`);
-      legend.append(item);
-      return value;
-    });
-    return { unit, lines, canvas, values };
-  });
-  place.hidden = drawn.length === 0;
-
+export function charts(place, seek, size) {
   const { times } = film;
   const [start, end] = [times[0], times[times.length - 1]];
-  const left = 56;
-  const from = (canvas, x) => {
-    const width = canvas.clientWidth - left - 12;
-    return start + Math.min(1, Math.max(0, (x - left) / width)) * (end - start);
+  /** What is shown of the run (s). */
+  let shown = [start, end];
+  const at = (canvas, x) => {
+    const width = canvas.clientWidth - LEFT - RIGHT;
+    return shown[0] + Math.min(1, Math.max(0, (x - LEFT) / width)) * (shown[1] - shown[0]);
   };
-  for (const { canvas } of drawn) {
-    const go = (event) => event.buttons && seek(from(canvas, event.offsetX));
+  function zoom(about, by) {
+    const frame = (end - start) / Math.max(1, times.length - 1);
+    const by1 = Math.max(by, (4 * frame) / (shown[1] - shown[0] || 1));
+    const [from, to] = shown.map((edge) => about + by1 * (edge - about));
+    shown = to - from >= end - start ? [start, end] : [Math.max(start, from), Math.min(end, to)];
+  }
+  function listen({ canvas }) {
+    const go = (event) => event.buttons && seek(at(canvas, event.offsetX));
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       go(event);
     });
     canvas.addEventListener("pointermove", go);
+    canvas.addEventListener("dblclick", () => (shown = [start, end]));
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      zoom(at(canvas, event.offsetX), 1.2 ** Math.sign(event.deltaY));
+    }, { passive: false });
   }
+  const units = [...new Set(film.readings.map((reading) => reading.unit))];
+  const drawn = units.map((unit) => chart(place, unit, film.readings.filter((reading) => reading.unit === unit)));
+  drawn.forEach(listen);
+  let added = null;
+  /** Shows lines of what was selected in a chart of their own; none without lines. */
+  function add(unit, lines) {
+    if (added) {
+      added.box.remove();
+      drawn.splice(drawn.indexOf(added), 1);
+      added = null;
+    }
+    if (lines?.length) {
+      added = chart(place, unit, lines);
+      listen(added);
+      drawn.push(added);
+      added.box.scrollIntoView?.({ block: "nearest" });
+    }
+    place.hidden = drawn.length === 0;
+  }
+  add();
 
   function draw({ lines, canvas, unit }, time) {
     const ratio = devicePixelRatio;
@@ -75,18 +99,18 @@ export function charts(place, seek) {
     const pen = canvas.getContext("2d");
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, height);
+    const [first, last] = [frameAt(shown[0]).low, frameAt(shown[1]).next];
     let [low, high] = [Infinity, -Infinity];
     for (const { values } of lines) {
-      for (const value of values) {
-        if (!Number.isFinite(value)) continue;
-        [low, high] = [Math.min(low, value), Math.max(high, value)];
+      for (let frame = first; frame <= last; frame++) {
+        const value = values[frame];
+        if (Number.isFinite(value)) [low, high] = [Math.min(low, value), Math.max(high, value)];
       }
     }
     if (!(low <= high)) return;
-    const slack = 0.08 * (high - low) || 0.1 * Math.abs(high) || 1;
-    [low, high] = [low - slack, high + slack];
-    const [top, bottom] = [8, height - 22];
-    const x = (t) => left + ((t - start) / (end - start || 1)) * (width - left - 12);
+    [low, high] = range(unit, low, high, size);
+    const [top, bottom, right] = [8, height - 22, width - RIGHT];
+    const x = (t) => LEFT + ((t - shown[0]) / (shown[1] - shown[0] || 1)) * (right - LEFT);
     const y = (v) => bottom - ((v - low) / (high - low)) * (bottom - top);
     pen.font = "11px system-ui, sans-serif";
     pen.fillStyle = css("--faint");
@@ -94,31 +118,37 @@ export function charts(place, seek) {
     pen.lineWidth = 1;
     pen.textBaseline = "middle";
     pen.textAlign = "right";
-    for (const mark of marks(low, high, 4)) {
+    const levels = marks(low, high, 4);
+    for (const mark of levels.at) {
       pen.beginPath();
-      pen.moveTo(left, Math.round(y(mark)) + 0.5);
-      pen.lineTo(width - 12, Math.round(y(mark)) + 0.5);
+      pen.moveTo(LEFT, Math.round(y(mark)) + 0.5);
+      pen.lineTo(right, Math.round(y(mark)) + 0.5);
       pen.stroke();
-      pen.fillText(digits(mark).replace(/\.?0+$/, ""), left - 8, y(mark));
+      pen.fillText(said(mark, levels.step), LEFT - 8, y(mark));
     }
     pen.textAlign = "center";
-    for (const mark of marks(start, end, Math.max(2, width / 110))) {
-      const said = `${+mark.toPrecision(6)} s`;
-      const half = pen.measureText(said).width / 2;
-      pen.fillText(said, Math.min(x(mark), width - half), height - 9);
+    const instants = marks(...shown, Math.max(2, width / 110));
+    for (const mark of instants.at) {
+      const text = `${said(mark, instants.step)} s`;
+      const half = pen.measureText(text).width / 2;
+      pen.fillText(text, Math.min(x(mark), width - half), height - 9);
     }
+    pen.save();
+    pen.beginPath();
+    pen.rect(LEFT, 0, right - LEFT + 1, height);
+    pen.clip();
     lines.forEach(({ values }, k) => {
       pen.strokeStyle = hex(colourOf(k));
       pen.lineWidth = 1.8;
       pen.lineJoin = "round";
       pen.beginPath();
       let on = false;
-      values.forEach((value, frame) => {
-        if (!Number.isFinite(value)) return void (on = false);
+      for (let frame = first; frame <= last; frame++) {
+        const value = values[frame];
         const goesOn = on && !wraps(unit, values[frame - 1], value);
-        pen[goesOn ? "lineTo" : "moveTo"](x(times[frame]), y(value));
-        on = true;
-      });
+        on = Number.isFinite(value);
+        if (on) pen[goesOn ? "lineTo" : "moveTo"](x(times[frame]), y(value));
+      }
       pen.stroke();
     });
     pen.strokeStyle = css("--text");
@@ -127,18 +157,19 @@ export function charts(place, seek) {
     pen.moveTo(x(time), top);
     pen.lineTo(x(time), bottom);
     pen.stroke();
-    pen.globalAlpha = 1;
+    pen.restore();
   }
 
-  return (time) => {
+  const show = (time) => {
     const { low, next, part } = frameAt(time);
-    for (const chart of drawn) {
-      draw(chart, time);
-      chart.lines.forEach(({ values }, k) => {
+    for (const each of drawn) {
+      draw(each, time);
+      each.lines.forEach(({ values }, k) => {
         const between = values[low] + (part ? part * (values[next] - values[low]) : 0);
-        const value = wraps(chart.unit, values[low], values[next]) ? values[part < 0.5 ? low : next] : between;
-        chart.values[k].textContent = digits(value);
+        const value = wraps(each.unit, values[low], values[next]) ? values[part < 0.5 ? low : next] : between;
+        each.values[k].textContent = digits(value);
       });
     }
   };
+  return { show, add };
 }

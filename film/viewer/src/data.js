@@ -1,15 +1,15 @@
 // What a film holds: read from the page, with the numbers of all frames in flat arrays.
 
-const floats = (text) => {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  return new Float32Array(bytes.buffer);
-};
+const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+const floats = (text) => new Float32Array(bytes(text));
+export const shorts = (text) => new Uint16Array(bytes(text));
 
 export const film = JSON.parse(document.getElementById("film").textContent);
 
 film.poses = floats(film.poses);
 film.loads = floats(film.loads);
 for (const reading of film.readings) reading.values = floats(reading.values);
+if (film.ghost) film.ghost.poses = floats(film.ghost.poses);
 
 /** Numbers of a body in a frame: position, then Euler parameters with the scalar first. */
 export const POSE = 7;
@@ -17,8 +17,7 @@ export const POSE = 7;
 export const LOAD = 6;
 
 /** The frame before a time, and how far the time is on to the next. */
-export function frameAt(time) {
-  const { times } = film;
+export function frameAt(time, times = film.times) {
   let [low, high] = [0, times.length - 1];
   while (high - low > 1) {
     const middle = (low + high) >> 1;

@@ -26,12 +26,15 @@ function across(axis) {
 export const LINES = /^(Prismatic|Translational|Slide|Sleeve|Cylindrical|Screw|PointOnLine)/;
 export const PLANES = /^(Planar|PointOnPlane)/;
 
+/** The radius of a pin, over the size of the mechanism. */
+export const RADIUS = 0.03;
+
 /** The parts of a joint or force: a list of groups, each with the place of its body. `way` says how
  * far the second point goes; `null` where another joint draws it. */
-export function symbol(element, size, way) {
+export function symbol(element, size, way, small = 1) {
   const { kind, name, type, bodies } = film.elements[element];
   const said = `${name}: ${kind}`;
-  const radius = 0.03 * size;
+  const radius = RADIUS * size * small;
   const markers = (place, of) => markersOf(element, place).filter((m) => m.kind === of);
   const point = (place, called) => markers(place, "point").find((m) => !called || m.name === called);
   const axis = (place, called) => {

@@ -1,16 +1,21 @@
 // The page of a film: stage, camera, controls, charts.
 
 import * as THREE from "three";
-import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { charts, digits } from "./charts.js";
 import { film } from "./data.js";
 import { floor } from "./floor.js";
 import { icon } from "./icons.js";
+import { picture, records, video } from "./save.js";
+import { selection } from "./select.js";
 import { colourOf } from "./shapes.js";
 import { stage } from "./stage.js";
+import { triad } from "./triad.js";
+import { views } from "./views.js";
 
 const id = (name) => document.getElementById(name);
 const [start, end] = [film.times[0], film.times[film.times.length - 1]];
+let time = start;
+let drawCharts;
 document.title = film.title;
 id("title").textContent = film.title;
 
@@ -50,83 +55,10 @@ function corners(box) {
 }
 
 // Cameras.
-const cameras = {
-  perspective: new THREE.PerspectiveCamera(32, 1, 0.01 * radius, 60 * radius),
-  orthographic: new THREE.OrthographicCamera(-1, 1, 1, -1, -40 * radius, 40 * radius),
-};
-let camera = cameras.perspective;
-let reach = radius;
-/** The direction of a view that nobody has changed since: it stays fitted when the page changes its size. */
-let fitted = null;
-let controls;
-function useCamera(next) {
-  next.up.copy(set.up);
-  next.position.copy(camera.position);
-  const target = controls?.target.clone() ?? middle.clone();
-  controls?.dispose();
-  camera = next;
-  controls = new OrbitControls(camera, canvas);
-  controls.enableDamping = true;
-  controls.dampingFactor = 0.12;
-  controls.addEventListener("start", () => (fitted = null));
-  controls.target.copy(target);
-  resize();
-}
-const isotropic = () => set.up.clone().multiplyScalar(0.55).addScaledVector(side, 0.55).addScaledVector(right, 1);
-/** The part of the stage's height, about its middle, that no controls are over. */
-function freeHeight() {
-  const box = canvas.getBoundingClientRect();
-  const above = document.querySelector(".views").getBoundingClientRect().bottom - box.top;
-  const below = box.bottom - document.querySelector(".layers").getBoundingClientRect().top;
-  return Math.min(0.9, Math.max(0.5, 1 - (2 * Math.max(above, below)) / box.height));
-}
-/** Looks from a direction, as near as everything that moves stays in the picture. */
-function fit(direction) {
-  const way = (direction ?? camera.position.clone().sub(controls.target)).normalize();
-  const aspect = canvas.clientWidth / canvas.clientHeight;
-  const half = Math.tan((cameras.perspective.fov * Math.PI) / 360);
-  // Axes of the picture, and what is free of controls: less at the sides than above and below.
-  const across = set.up.clone().cross(way);
-  if (across.lengthSq() < 1e-6) across.copy(right);
-  across.normalize();
-  const upward = way.clone().cross(across);
-  const bounds = (axis) => {
-    const far = set.places.map((place) => place.dot(axis));
-    return [Math.min(...far), Math.max(...far)];
-  };
-  const [x, y] = [bounds(across), bounds(upward)];
-  const centre = across.clone().multiplyScalar((x[0] + x[1]) / 2)
-    .addScaledVector(upward, (y[0] + y[1]) / 2).addScaledVector(way, middle.dot(way));
-  let distance = 0;
-  const margin = 0.07 * set.size;
-  const free = freeHeight();
-  for (const place of set.places) {
-    const off = place.clone().sub(centre);
-    const wide = (Math.abs(off.dot(across)) + margin) / (0.9 * half * aspect);
-    const high = (Math.abs(off.dot(upward)) + margin) / (free * half);
-    distance = Math.max(distance, Math.max(wide, high) + off.dot(way));
-  }
-  fitted = way.clone();
-  controls.target.copy(centre);
-  camera.position.copy(centre).addScaledVector(way, distance);
-  reach = distance * half;
-  cameras.orthographic.zoom = 1;
-  controls.update();
-  resize();
-}
-function resize() {
-  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-  renderer.setSize(width, height, false);
-  const aspect = width / height;
-  cameras.perspective.aspect = aspect;
-  const half = reach;
-  Object.assign(cameras.orthographic, { left: -half * aspect, right: half * aspect, top: half, bottom: -half });
-  for (const each of Object.values(cameras)) each.updateProjectionMatrix();
-  drawCharts(time);
-}
+const show = views(canvas, renderer, { set, middle, radius, side, right }, () => drawCharts?.(time));
+const corner = triad(id("triad"), canvas, renderer);
 
 // Time.
-let time = start;
 let playing = true;
 let looping = true;
 let speed = natural();
@@ -148,7 +80,8 @@ function play(on) {
   id("play").innerHTML = icon(on ? "pause" : "play");
   id("play").setAttribute("aria-label", on ? "Pause" : "Play");
 }
-const drawCharts = charts(id("charts"), seek);
+const graphs = charts(id("charts"), seek, set.size);
+drawCharts = graphs.show;
 
 // Controls.
 for (const name of ["loop", "theme", "list"]) id(name).insertAdjacentHTML("afterbegin", icon(name));
@@ -158,22 +91,45 @@ id("speed").onchange = (event) => (speed = +event.target.value);
 id("play").onclick = () => play(!playing);
 id("loop").onclick = () => id("loop").setAttribute("aria-pressed", (looping = !looping));
 slider.oninput = () => seek(start + slider.value * (end - start));
-const views = {
-  fit: () => fit(), iso: () => fit(isotropic()),
-  x: () => fit(new THREE.Vector3(1, 0, 0)), y: () => fit(new THREE.Vector3(0, 1, 0)), z: () => fit(new THREE.Vector3(0, 0, 1)),
-  flat: () => {
-    useCamera(camera === cameras.perspective ? cameras.orthographic : cameras.perspective);
-    id("flat").setAttribute("aria-pressed", camera === cameras.orthographic);
-  },
+const along = (...at) => () => show.fit(new THREE.Vector3(...at));
+const buttons = {
+  fit: () => show.fit(), iso: () => show.fit(show.corner()), x: along(1, 0, 0), y: along(0, 1, 0), z: along(0, 0, 1),
+  flat: () => id("flat").setAttribute("aria-pressed", show.flatten()),
+  png: () => onPaper(() => picture(canvas)),
+  video: record,
 };
-for (const [name, act] of Object.entries(views)) id(name).onclick = act;
-const shown = { reactions: film.arrows.length > 0 && film.showArrows, centres: true, points: true, traces: true, joints: true, forces: true };
+for (const [name, act] of Object.entries(buttons)) id(name).onclick = act;
+id("video").hidden = !records();
+
+/** Draws on the colour of the page, which is not in the canvas, and does something with the picture. */
+function onPaper(act) {
+  scene.background = new THREE.Color(isDark() ? 0x171c25 : 0xf3f5f9);
+  render();
+  act?.();
+  if (act) scene.background = null;
+}
+/** Saves a video from the start to the end, or what there is of it at a second click. */
+let stopVideo = null;
+function record() {
+  if (stopVideo) {
+    stopVideo();
+    stopVideo = scene.background = null;
+    id("video").setAttribute("aria-pressed", false);
+    return;
+  }
+  time = start;
+  onPaper();
+  stopVideo = video(canvas);
+  id("video").setAttribute("aria-pressed", true);
+  play(true);
+}
+const shown = { reactions: film.arrows.length > 0 && film.showArrows, centres: film.meshes.length === 0, frames: false, ghost: true, points: true, traces: true, joints: true, forces: true };
 for (const name of Object.keys(shown)) {
   const button = id(`show-${name}`);
   const apply = () => {
     set.layers[name].visible = shown[name];
     button.setAttribute("aria-pressed", shown[name]);
-    id("scale").hidden = !shown.reactions;
+    id("scale").hidden = !shown.reactions || set.perMetre === null;
   };
   button.onclick = () => {
     shown[name] = !shown[name];
@@ -182,10 +138,11 @@ for (const name of Object.keys(shown)) {
   apply();
 }
 id("show-reactions").hidden = film.arrows.length === 0;
+id("show-ghost").hidden = !film.ghost;
 id("show-points").hidden = film.points.length === 0;
 id("show-traces").hidden = film.traces.length === 0;
 id("show-forces").hidden = !film.elements.some((element) => element.type === "force");
-id("scale").textContent = `arrows: ${+digits(set.perMetre)} N to 1 m`;
+if (set.perMetre !== null) id("scale").textContent = `arrows: ${+digits(set.perMetre)} N to 1 m`;
 
 // What can be hidden.
 function entry(kind, index, said, colour) {
@@ -195,6 +152,11 @@ function entry(kind, index, said, colour) {
   if (colour !== undefined) item.style.setProperty("--colour", `#${colour.toString(16).padStart(6, "0")}`);
   item.innerHTML = "<i></i>";
   item.append(said);
+  item.title = "Click to hide or show, double click to select";
+  item.ondblclick = () => {
+    if (item.getAttribute("aria-pressed") !== "true") item.click();
+    chosen.select({ kind, index });
+  };
   item.onclick = () => {
     const hidden = item.getAttribute("aria-pressed") === "true";
     item.setAttribute("aria-pressed", !hidden);
@@ -233,72 +195,58 @@ for (const warning of film.warnings) {
 
 // Light and dark.
 const dark = matchMedia("(prefers-color-scheme: dark)");
+function isDark() {
+  const { theme: asked } = document.documentElement.dataset;
+  return asked ? asked === "dark" : dark.matches;
+}
 function theme() {
-  const isDark = document.documentElement.dataset.theme ? document.documentElement.dataset.theme === "dark" : dark.matches;
-  grid.material.color.set(isDark ? 0x3a4254 : 0xb4bccb);
-  grid.material.opacity = isDark ? 0.75 : 0.6;
-  shade.material.opacity = isDark ? 0.4 : 0.16;
+  grid.material.color.set(isDark() ? 0x3a4254 : 0xb4bccb);
+  grid.material.opacity = isDark() ? 0.75 : 0.6;
+  shade.material.opacity = isDark() ? 0.4 : 0.16;
   drawCharts(time);
-  return isDark;
 }
 dark.addEventListener("change", theme);
 id("theme").onclick = () => {
-  document.documentElement.dataset.theme = theme() ? "light" : "dark";
+  document.documentElement.dataset.theme = isDark() ? "light" : "dark";
   theme();
 };
 
-// Names on hover.
-const ray = new THREE.Raycaster();
-const label = id("label");
-canvas.addEventListener("pointermove", (event) => {
-  const box = canvas.getBoundingClientRect();
-  const at = new THREE.Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
-  ray.setFromCamera(at, camera);
-  // What is drawn over everything is named before what it lies in.
-  const hits = ray.intersectObjects(scene.children, true).filter(({ object }) => object.userData.name && seen(object));
-  const hit = hits.sort((a, b) => b.object.renderOrder - a.object.renderOrder || a.distance - b.distance)[0];
-  label.hidden = !hit;
-  if (!hit) return;
-  label.textContent = hit.object.userData.name;
-  label.style.translate = `${event.clientX + 14}px ${event.clientY + 14}px`;
-});
-canvas.addEventListener("pointerleave", () => (label.hidden = true));
-const seen = (object) => object === null || (object.visible && seen(object.parent));
+// What is under the pointer, and what is selected.
+const chosen = selection(canvas, scene, set, () => show.camera, (lines) => graphs.add("N", lines), { follow: show.follow });
 
 // Keys.
 const frame = () => (end - start) / Math.max(1, film.times.length - 1);
+const click = (name) => () => id(name).click();
 const keys = {
-  " ": () => play(!playing), ArrowLeft: () => seek(time - frame()), ArrowRight: () => seek(time + frame()),
-  Home: () => seek(start), End: () => seek(end), l: () => id("loop").click(), f: views.fit, i: views.iso,
-  x: views.x, y: views.y, z: views.z, o: views.flat, r: () => id("show-reactions").click(),
-  t: () => id("show-traces").click(), p: () => id("show-points").click(), h: () => id("list").click(), d: () => id("theme").click(),
+  " ": () => play(!playing), arrowleft: () => seek(time - frame()), arrowright: () => seek(time + frame()),
+  home: () => seek(start), end: () => seek(end), escape: () => chosen.select(null),
+  l: click("loop"), f: click("fit"), i: click("iso"), x: click("x"), y: click("y"), z: click("z"), o: click("flat"),
+  s: click("png"), v: click("video"), c: () => chosen.selected?.kind === "body" && id("follow").click(),
+  r: click("show-reactions"), t: click("show-traces"), p: click("show-points"), a: click("show-frames"),
+  g: click("show-ghost"), h: click("list"), d: click("theme"),
 };
 addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
-  const act = keys[event.key];
+  // Caps Lock makes capitals of letters.
+  const act = keys[event.key.toLowerCase()];
   if (!act) return;
   event.preventDefault();
   act();
 });
 
-new ResizeObserver(() => (fitted ? fit(fitted.clone()) : resize())).observe(canvas);
-useCamera(camera);
-fit(isFlat() ?? isotropic());
+show.fit(show.first());
 theme();
 play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
 
-/** The direction to look from at what moves in a plane: nearly along its normal. */
-function isFlat() {
-  const extent = set.box.getSize(new THREE.Vector3());
-  const axes = [new THREE.Vector3(1, 0, 0), new THREE.Vector3(0, 1, 0), new THREE.Vector3(0, 0, 1)];
-  const normal = axes.find((_, k) => extent.getComponent(k) < 0.02 * set.size);
-  if (!normal || Math.abs(normal.dot(set.up)) > 0.9) return null;
-  const aside = normal.clone().cross(set.up);
-  return normal.clone().addScaledVector(set.up, 0.22).addScaledVector(aside, -0.3);
-}
-
-// An address such as `film.html#t=0.5` opens at that time and stands still; the page then says
+// An address such as `film.html#t=0.5&view=z&select=crank` opens at that time and stands still; the page then says
 // which part of the stage was drawn on, for whoever looks at it without eyes.
+const view = /[#&]view=([a-z]+)/.exec(location.hash)?.[1];
+if (view in buttons) buttons[view]();
+const part = /[#&]select=(\w+)/.exec(location.hash)?.[1];
+for (const kind of ["body", "element"]) {
+  const index = film[{ body: "bodies", element: "elements" }[kind]].findIndex(({ name }) => name === part);
+  if (index >= 0) chosen.select({ kind, index });
+}
 const asked = /[#&]t=([-+.\de]+)/.exec(location.hash);
 if (asked) seek(+asked[1]);
 function drawn() {
@@ -318,16 +266,25 @@ function draw(now) {
   if (playing) {
     time += passed * speed;
     if (time > end) {
-      time = looping ? start + ((time - start) % (end - start || 1)) : end;
-      if (!looping) play(false);
+      if (stopVideo) {
+        record();
+        play(false);
+      }
+      time = looping && playing ? start + ((time - start) % (end - start || 1)) : end;
+      if (time === end) play(false);
     }
   }
   set.show(time);
-  controls.update();
+  show.update();
   slider.value = (time - start) / (end - start || 1);
   id("time").textContent = `${time.toFixed(end - start < 1 ? 4 : 2)} s`;
   drawCharts(time);
-  renderer.render(scene, camera);
+  chosen.read(time);
+  render();
+}
+function render() {
+  renderer.render(scene, show.camera);
+  corner(show.camera);
 }
 draw(previous);
 if (asked) document.body.dataset.drawn = drawn().toFixed(4);

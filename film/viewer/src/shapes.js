@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
 import { film, points, spanning } from "./data.js";
+import { surface } from "./surfaces.js";
 
 const UP = new THREE.Vector3(0, 1, 0);
 const vector = (at) => new THREE.Vector3(...at);
@@ -52,14 +53,16 @@ function distinct(places, size) {
 /** A body: bars from point to point of its joints and to its centre of mass, the shortest that
  * join all, and a plate where three points or more span one. Of a body that nothing names a point
  * of, a cube. */
-export function body(index, size) {
+export function body(index, size, small = 1) {
   const { name, particle } = film.bodies[index];
   const group = new THREE.Group();
   const material = new THREE.MeshStandardMaterial({ color: colourOf(index), ...METAL });
-  const radius = 0.018 * size;
+  const radius = 0.018 * size * small;
   const solids = film.shapes.filter((solid) => solid.body === index);
-  if (solids.length) {
+  const meshes = film.meshes.filter((mesh) => mesh.body === index);
+  if (solids.length || meshes.length) {
     for (const solid of solids) group.add(drawn(solid, material, name));
+    for (const mesh of meshes) group.add(surface(mesh, material, name));
     return group;
   }
   const named = distinct(points(index).map((m) => vector(m.at)), size);
@@ -161,6 +164,27 @@ export function rod(from, to, radius, material, name) {
   return made;
 }
 
+/** The axes of a body, at its centre of mass: x red, y green, z blue, seen through what they are in. */
+export function frame(length, name) {
+  const group = new THREE.Group();
+  const colours = [0xe0453a, 0x2fa84f, 0x3b6fe0];
+  colours.forEach((color, k) => {
+    const material = new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true });
+    const shaft = mesh(new THREE.CylinderGeometry(0.035 * length, 0.035 * length, 0.8 * length, 10), material, `${"xyz"[k]} axis of ${name}`);
+    shaft.position.y = 0.4 * length;
+    const head = mesh(new THREE.ConeGeometry(0.09 * length, 0.2 * length, 16), material, shaft.userData.name);
+    head.position.y = 0.9 * length;
+    const arrow = new THREE.Group();
+    for (const part of [shaft, head]) {
+      part.renderOrder = 5;
+      part.castShadow = part.receiveShadow = false;
+      arrow.add(part);
+    }
+    group.add(along(arrow, new THREE.Vector3().setComponent(k, 1)));
+  });
+  return group;
+}
+
 /** The centre of mass: a ball in quarters, as in drawings. */
 export function centreOfMass(size, name) {
   const group = new THREE.Group();
@@ -243,20 +267,24 @@ export function coil(size, turns = 9) {
 }
 
 /** An arrow that is set anew in every frame. */
-export function arrow(colour, size) {
+export function arrow(colour, size, small, said) {
   const group = new THREE.Group();
   const material = new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true, opacity: 0.9 });
   const shaft = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 12), material);
   const head = new THREE.Mesh(new THREE.ConeGeometry(1, 1, 20), material);
   group.add(shaft, head);
   group.renderOrder = 4;
-  group.children.forEach((part) => (part.renderOrder = 4));
+  for (const part of group.children) {
+    part.renderOrder = 4;
+    part.userData.name = said;
+  }
   group.setArrow = (at, way) => {
     const length = way.length();
     group.visible = Number.isFinite(length) && length > 0.004 * size;
     if (!group.visible) return;
-    const tip = Math.min(0.045 * size, 0.4 * length);
-    shaft.scale.set(0.006 * size, length - tip, 0.006 * size);
+    const tip = Math.min(0.045 * size * small, 0.4 * length);
+    const thick = 0.006 * size * small;
+    shaft.scale.set(thick, length - tip, thick);
     shaft.position.y = 0.5 * (length - tip);
     head.scale.set(0.36 * tip, tip, 0.36 * tip);
     head.position.y = length - 0.5 * tip;

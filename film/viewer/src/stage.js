@@ -4,82 +4,16 @@ import * as THREE from "three";
 import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
-import { film, frameAt, LOAD, markersOf, points, POSE } from "./data.js";
-import { LINES, PLANES, rack, symbol, wheel } from "./joints.js";
+import { film, frameAt, LOAD, markersOf, POSE } from "./data.js";
+import { LINES, PLANES, rack, RADIUS, symbol, wheel } from "./joints.js";
+import { cloud, nearness, normal, poseIn, sizeAtStart, wayOf } from "./reach.js";
 import * as shapes from "./shapes.js";
+import { surface } from "./surfaces.js";
 
 const vector = (at) => new THREE.Vector3(...at);
 
 /** Joints that are drawn as a line between two points. */
 const LINKS = /^Distance|Length|^RevoluteSpherical|^RevoluteRevolute|^(Perpendicular|Parallel)2/;
-
-/** What a body reaches to, in its axes: its points, shapes and wheels. */
-function reach(body) {
-  const places = points(body).map((marker) => vector(marker.at));
-  for (const { sizes, kind, centre, axes } of film.shapes.filter((shape) => shape.body === body)) {
-    const [long, wide, narrow] = sizes;
-    const half = { block: [long / 2, wide / 2, narrow / 2], ball: [long, long, long] }[kind] ?? [long / 2, wide, wide];
-    const [w, x, y, z] = axes;
-    for (let k = 0; k < 8; k++) {
-      const corner = vector(half.map((far, axis) => (k & (1 << axis) ? far : -far)));
-      places.push(corner.applyQuaternion(new THREE.Quaternion(x, y, z, w)).add(vector(centre)));
-    }
-  }
-  for (const { centre, axis, tooth, radius } of film.wheels.filter((wheel) => wheel.body === body))
-    for (let k = 0; k < 12; k++)
-      places.push(vector(tooth).applyAxisAngle(vector(axis), (k * Math.PI) / 6).multiplyScalar(radius).add(vector(centre)));
-  return places;
-}
-
-/** Where that is in all frames. */
-function cloud() {
-  const places = reach(null);
-  const own = film.bodies.map((_, body) => reach(body));
-  const turn = new THREE.Quaternion();
-  const stride = Math.max(1, Math.floor(film.times.length / 120));
-  for (let frame = 0; frame < film.times.length; frame += stride) {
-    film.bodies.forEach((_, body) => {
-      const [at, p] = poseIn(frame, body, turn);
-      places.push(at.clone());
-      for (const place of own[body]) places.push(place.clone().applyQuaternion(p).add(at));
-    });
-  }
-  return places.length ? places : [new THREE.Vector3()];
-}
-
-/** Position and orientation of a body in a frame. */
-function poseIn(frame, body, turn = new THREE.Quaternion()) {
-  const first = (frame * film.bodies.length + body) * POSE;
-  const [x, y, z, e0, e1, e2, e3] = film.poses.subarray(first, first + POSE);
-  return [new THREE.Vector3(x, y, z), turn.set(e1, e2, e3, e0).normalize()];
-}
-
-/** How far the second body's point goes from the first body's: along its axis, least and most; from
- * it, where it moves in a plane. */
-function wayOf(index) {
-  const element = film.elements[index];
-  const markers = (place, kind) => markersOf(index, place).find((m) => m.kind === kind);
-  const [from, axis, to] = [markers(0, "point"), markers(0, "axis"), markers(1, "point")];
-  const isPlane = PLANES.test(element.kind);
-  if (!(isPlane || LINES.test(element.kind)) || !from || !axis || !to) return undefined;
-  let [low, high] = [0, 0];
-  const global = (marker, frame) => {
-    const at = vector(marker.at);
-    if (marker.body === null) return at;
-    const [place, turn] = poseIn(frame, marker.body);
-    return at.applyQuaternion(turn).add(place);
-  };
-  const turned = (frame) => {
-    const way = vector(axis.at);
-    return axis.body === null ? way : way.applyQuaternion(poseIn(frame, axis.body)[1]);
-  };
-  for (let frame = 0; frame < film.times.length; frame++) {
-    const off = global(to, frame).sub(global(from, frame));
-    const far = isPlane ? off.length() : off.dot(turned(frame));
-    [low, high] = [Math.min(low, far), Math.max(high, far)];
-  }
-  return [low, high];
-}
 
 /** Of planes of one body that are one plane, leaves the first, as wide as all. */
 function joinPlanes(ways, size) {
@@ -98,18 +32,6 @@ function joinPlanes(ways, size) {
   });
 }
 
-/** The size of the mechanism as it stands at the start: what pins and rods are measured by. */
-function sizeAtStart() {
-  const box = new THREE.Box3();
-  for (const place of reach(null)) box.expandByPoint(place);
-  film.bodies.forEach((_, body) => {
-    const [at, turn] = poseIn(0, body);
-    box.expandByPoint(at);
-    for (const place of reach(body)) box.expandByPoint(place.applyQuaternion(turn).add(at));
-  });
-  return box.isEmpty() ? 0 : box.getSize(new THREE.Vector3()).length();
-}
-
 export function stage(scene) {
   const places = cloud();
   const box = new THREE.Box3().setFromPoints(places);
@@ -119,14 +41,25 @@ export function stage(scene) {
   const free = isFlat ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(0, 0, 1);
   const up = down.lengthSq() > 0 ? down.clone().negate().normalize() : free;
   const ground = new THREE.Group();
-  const bodies = film.bodies.map((_, index) => shapes.body(index, size));
+  const small = nearness(size, RADIUS * size);
+  /** The smallest of what is on a body. */
+  const smallOn = (body) => Math.min(1, ...small.filter((_, k) => film.elements[k].bodies.includes(body)));
+  const bodies = film.bodies.map((_, index) => shapes.body(index, size, smallOn(index)));
   const layers = {
     bodies: new THREE.Group(), joints: new THREE.Group(), forces: new THREE.Group(),
     reactions: new THREE.Group(), traces: new THREE.Group(), centres: new THREE.Group(),
-    points: new THREE.Group(),
+    points: new THREE.Group(), frames: new THREE.Group(), ghost: new THREE.Group(),
   };
   scene.add(ground, ...Object.values(layers));
-  bodies.forEach((body) => layers.bodies.add(body));
+  bodies.forEach((body, index) => {
+    body.userData.part = { kind: "body", index };
+    layers.bodies.add(body);
+  });
+  const ghosts = film.ghost ? film.bodies.map((_, index) => ghost(shapes.body(index, size, smallOn(index)), index)) : [];
+  ghosts.forEach((body) => layers.ghost.add(body));
+  const root = film.meshes.filter((mesh) => mesh.body === null);
+  const stone = new THREE.MeshStandardMaterial({ color: shapes.inGroundColour, ...shapes.METAL, side: THREE.DoubleSide });
+  for (const mesh of root) ground.add(surface(mesh, stone, "ground"));
 
   // Groups that move with a body but are shown and hidden with a layer of their own.
   const riders = [];
@@ -139,15 +72,22 @@ export function stage(scene) {
     }
   };
   film.bodies.forEach((body, index) => {
-    if (!body.particle) ride(layers.centres, index, shapes.centreOfMass(size, body.name));
+    const little = Math.max(0.5, smallOn(index));
+    if (!body.particle) {
+      ride(layers.centres, index, shapes.centreOfMass(size * little, body.name));
+      ride(layers.frames, index, shapes.frame(0.14 * size * little, body.name));
+    }
   });
   for (const { name, body, at } of film.points) {
     const holder = new THREE.Group();
-    holder.add(shapes.mark(at, size, body, `${name}: point on ${body === null ? "ground" : film.bodies[body].name}`));
+    holder.add(shapes.mark(at, size * (body === null ? 1 : Math.max(0.45, smallOn(body))), body, `${name}: point on ${body === null ? "ground" : film.bodies[body].name}`));
     if (body === null) layers.points.add(holder);
     else ride(layers.points, body, holder);
   }
-  const ways = film.elements.map((_, index) => wayOf(index));
+  const ways = film.elements.map(({ kind }, index) => {
+    const isPlane = PLANES.test(kind);
+    return isPlane || LINES.test(kind) ? wayOf(index, isPlane) : undefined;
+  });
   joinPlanes(ways, size);
   const elements = film.elements.map((element, index) => {
     const parts = [];
@@ -156,17 +96,18 @@ export function stage(scene) {
       // A holder that moves with the body, so that the group keeps its place on it.
       const holder = new THREE.Group();
       holder.add(group);
+      holder.userData.part = { kind: "element", index };
       parts.push(group);
       if (body === null) layer.add(holder);
       else ride(layer, body, holder);
     };
-    for (const { place, group } of symbol(index, size, ways[index])) add(element.bodies[place], group);
+    for (const { place, group } of symbol(index, size, ways[index], small[index])) add(element.bodies[place], group);
     for (const made of film.wheels.filter((wheel) => wheel.elements[0] === index)) add(made.body, wheel(made, size));
     for (const made of film.racks.filter((rack) => rack.element === index)) add(made.body, rack(made, size));
     element.bodies.forEach((body, place) => {
-      if (body !== null || PLANES.test(element.kind)) return;
+      if (body !== null || PLANES.test(element.kind) || root.length) return;
       for (const marker of markersOf(index, place).filter((m) => m.kind === "point"))
-        ground.add(shapes.foot(marker.at, up.clone().negate(), size));
+        ground.add(shapes.foot(marker.at, up.clone().negate(), size * small[index]));
     });
     return parts;
   });
@@ -180,7 +121,7 @@ export function stage(scene) {
     const pair = linePair(element, ends);
     if (!isLine || !pair) return;
     const isCoil = element.type === "force" && /Spring|Bushing/.test(element.kind);
-    lines.push({ index, pair, draw: isCoil ? shapes.coil(size) : null, object: null });
+    lines.push({ index, pair, draw: isCoil ? shapes.coil(size * Math.max(0.4, small[index])) : null, object: null });
   });
 
   // Arrows: what was recorded of joints, on a scale that fits the largest.
@@ -200,8 +141,12 @@ export function stage(scene) {
       }
     }
   }
-  const arrows = film.arrows.map(() => shapes.arrow(0xd6455d, size));
-  arrows.forEach((arrow) => layers.reactions.add(arrow));
+  const arrows = film.arrows.map(({ joint }) => {
+    const arrow = shapes.arrow(0xd6455d, size, Math.max(0.4, small[joint]), `reaction of ${film.elements[joint].name}`);
+    arrow.userData.part = { kind: "element", index: joint };
+    layers.reactions.add(arrow);
+    return arrow;
+  });
 
   // Traces: the whole way faint, what was passed strong.
   const traces = film.traces.map((trace, k) => {
@@ -220,10 +165,10 @@ export function stage(scene) {
   });
 
   const [a, b] = [new THREE.Quaternion(), new THREE.Quaternion()];
-  function place(object, body, { low, next, part }) {
+  function place(object, body, { low, next, part }, poses = film.poses) {
     const count = film.bodies.length;
-    const p = film.poses.subarray((low * count + body) * POSE);
-    const q = film.poses.subarray((next * count + body) * POSE);
+    const p = poses.subarray((low * count + body) * POSE);
+    const q = poses.subarray((next * count + body) * POSE);
     object.position.set(...[0, 1, 2].map((k) => p[k] + part * (q[k] - p[k])));
     a.set(p[4], p[5], p[6], p[3]).normalize();
     b.set(q[4], q[5], q[6], q[3]).normalize();
@@ -239,6 +184,10 @@ export function stage(scene) {
   function show(time) {
     const frame = frameAt(time);
     bodies.forEach((body, index) => place(body, index, frame));
+    if (film.ghost) {
+      const other = frameAt(time, film.ghost.times);
+      ghosts.forEach((body, index) => place(body, index, other, film.ghost.poses));
+    }
     for (const [body, object] of riders) {
       object.position.copy(bodies[body].position);
       object.quaternion.copy(bodies[body].quaternion);
@@ -260,6 +209,7 @@ export function stage(scene) {
         layers.forces.add(line.object);
       }
       line.object.userData.name = said;
+      line.object.userData.part = { kind: "element", index: line.index };
       line.object.visible = !line.hidden;
     }
     const nearest = frame.part < 0.5 ? frame.low : frame.next;
@@ -281,7 +231,26 @@ export function stage(scene) {
       lines.filter((line) => line.index === index).forEach((line) => (line.hidden = hidden));
     }
   };
-  return { box, places, size, up, layers, show, hide, perMetre };
+  /** Lights a body, joint or force up, and no other. */
+  const light = (part) => {
+    const all = [...bodies, ...elements.flat()];
+    const lit = part === null ? [] : part.kind === "body" ? [bodies[part.index]] : elements[part.index];
+    for (const object of all)
+      object.traverse(({ material }) => material?.emissive?.setHex(lit.includes(object) ? 0x553311 : 0));
+  };
+  return { box, places, size, up, normal: normal(size), bodies, layers, show, hide, light, perMetre: largest > 0 ? perMetre : null };
+}
+
+/** A body of another run: what is seen through. */
+function ghost(body, index) {
+  const material = new THREE.MeshStandardMaterial({
+    color: shapes.colourOf(index), transparent: true, opacity: 0.28, depthWrite: false, ...shapes.METAL });
+  body.traverse((part) => {
+    if (!part.isMesh) return;
+    Object.assign(part, { material, castShadow: false, receiveShadow: false });
+    part.userData.name = `${film.bodies[index].name} of ${film.ghost.title}`;
+  });
+  return body;
 }
 
 /** A line through places, so many pixels wide; nothing to hover over. */

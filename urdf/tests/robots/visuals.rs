@@ -108,3 +108,40 @@ looks.urdf:9: link \"a\": `radius` is -1; zero or a positive number is accepted
 looks.urdf:10: link \"a\": `xyz` is \"1\"; 3 numbers with spaces between them are accepted";
     assert_eq!(said.expect_err("refused"), wanted);
 }
+
+/// The frame of the mesh in that of its link, and of the ground, by hand: the centre of mass is half
+/// a metre along y from the link.
+#[test]
+fn meshes_have_their_frames_on_bodies() {
+    let text = ROBOT.replace(
+        "<link name=\"base\">",
+        "<material name=\"paint\"><color rgba=\"0 0.5 1 1\"/></material><link name=\"base\">
+         <visual><origin xyz=\"7 8 9\"/><geometry><mesh filename=\"base.dae\"/></geometry></visual>",
+    );
+    let text = text.replace(
+        "VISUALS",
+        "<visual><origin xyz=\"1 2 3\" rpy=\"0 0 1.5707963267948966\"/><material name=\"paint\"/>
+         <geometry><mesh filename=\"package://a/b.stl\" scale=\"1 2 3\"/></geometry></visual>",
+    );
+    let robot = Robot::parse(&text).expect("sound");
+    let mechanism = robot.mechanism(&Options::default()).expect("it moves");
+    let [base, arm] = &mechanism.meshes[..] else {
+        panic!("{:?}", mechanism.meshes)
+    };
+    assert_eq!((&*base.file, base.body), ("base.dae", None));
+    assert_eq!((base.origin, base.scale), ([7.0, 8.0, 9.0], [1.0; 3]));
+    assert_eq!(
+        (base.orientation, base.colour),
+        ([1.0, 0.0, 0.0, 0.0], None)
+    );
+    assert_eq!((&*arm.file, arm.body), ("package://a/b.stl", Some(0)));
+    assert_eq!((arm.origin, arm.scale), ([1.0, 1.5, 3.0], [1.0, 2.0, 3.0]));
+    let half = 0.5_f64.sqrt();
+    let turned = arm.orientation.iter().zip([half, 0.0, 0.0, half]);
+    assert!(
+        turned
+            .into_iter()
+            .all(|(found, wanted)| (found - wanted).abs() < 1e-15)
+    );
+    assert_eq!(arm.colour, Some([0.0, 0.5, 1.0, 1.0]));
+}

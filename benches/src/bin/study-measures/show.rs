@@ -6,14 +6,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 use holonom_benches::output;
-use holonom_benches::show::{scene, scenes};
+use holonom_benches::show::{first, scene, scenes};
 use holonom_study::StudyError;
 
 #[derive(Debug, Args)]
 pub(crate) struct Show {
-    /// What moves; `all` are all of them.
-    #[arg(long, value_name = "NAME", default_value = "four-bar")]
-    problem: String,
+    /// What moves: a name, or `all`; six mechanisms of different kinds if nothing is said.
+    #[arg(long, value_name = "NAME")]
+    problem: Option<String>,
     /// How long it moves (s), if not as long as is usual for the problem.
     #[arg(long, value_name = "S", value_parser = seconds)]
     seconds: Option<f64>,
@@ -30,9 +30,10 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn study(arguments: &Show) -> Result<(), Box<dyn Error>> {
-    let chosen = match arguments.problem.as_str() {
-        "all" => scenes(),
-        name => vec![scene(name)?],
+    let chosen = match arguments.problem.as_deref() {
+        None => first().to_vec(),
+        Some("all") => scenes(),
+        Some(name) => vec![scene(name)?],
     };
     let out = &arguments.out;
     for scene in chosen {

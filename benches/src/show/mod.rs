@@ -1,5 +1,7 @@
 //! The runs of `study show`: one for each problem, recorded into a film.
 
+pub mod mechanisms;
+
 use std::error::Error;
 
 #[cfg(feature = "large")]
@@ -11,9 +13,11 @@ use holonom_film::Film;
 #[cfg(feature = "large")]
 use holonom_models::{
     Bricard, CartPole, Door, DoubleFourBar, FlyballGovernor, HeavyChain, HeavyTop, Panda,
-    QuintupleFourBar, SimplePendulum, SliderCrank, SqueezingMechanism, Ur5, VariableLengthPendulum,
+    QuintupleFourBar, SimplePendulum, SqueezingMechanism, Ur5, VariableLengthPendulum,
 };
-use holonom_models::{FourBar, RodPendulum};
+use holonom_models::{FourBar, RodPendulum, SliderCrank};
+
+use self::mechanisms::{Arm, Axle, CrankRocker, Digger, GearTrain};
 
 /// The tolerance of all runs, relative to the scales of the mechanism.
 const TOLERANCE: f64 = 1e-8;
@@ -100,17 +104,42 @@ fn traced<M: Mechanism>(mut film: Film<M>, trace: impl FnOnce(&mut Film<M>)) -> 
     film
 }
 
-/// All runs: two without the feature `large`, whose mechanisms compile quickly.
+/// The runs that are shown where none is named: a mechanism of each kind.
+#[must_use]
+pub fn first() -> [Scene; 6] {
+    [
+        scene!("arm", "An arm of three axes", 8.0 s, Arm accurate,
+            trace tip,
+            "elbow" ("rad") of |sample, h| sample.angle(h.elbow)),
+        scene!("slider-crank", "Slider-crank", 0.2 s, SliderCrank accurate,
+            trace rod "middle of the rod" [0.0; 3],
+            "slider" ("m") of |sample, h| sample.displacement(h.guide)),
+        scene!("gear-train", "A train of three wheels", 6.0 s, GearTrain accurate,
+            "output" ("rad") of |sample, h| sample.angle(h.output)),
+        scene!("axle", "A rigid axle after a bump", 3.0 s, Axle accurate,
+            trace left "left hub" [0.0; 3],
+            "height of the left hub" ("m") of |sample, h| sample.pose(h.left).position.z),
+        scene!("digger", "Digger", 8.0 s, Digger accurate,
+            trace teeth,
+            "height of the teeth" ("m") of |sample, h| sample.position(h.teeth).z),
+        scene!("crank-rocker", "Crank and rocker", 6.0 s, CrankRocker accurate,
+            trace coupler "middle of the coupler" [0.0; 3],
+            "rocker" ("rad") of |sample, h| sample.angle(h.rocker_foot)),
+    ]
+}
+
+/// All runs: without the feature `large` those whose mechanisms compile quickly.
 #[must_use]
 pub fn scenes() -> Vec<Scene> {
-    let mut scenes = vec![
+    let mut scenes = first().to_vec();
+    scenes.extend([
         scene!("four-bar", "Four-bar", 6.0 s, FourBar through_singular,
             trace coupler "middle of the coupler" [0.0; 3],
             "left foot" ("rad") of |sample, h| sample.angle(h.left_foot)),
         scene!("pendulum", "Rod on a hinge", 10.0 s, RodPendulum accurate,
             trace rod "centre of mass" [0.0; 3],
             "pivot" ("rad") of |sample, h| sample.angle(h.pivot)),
-    ];
+    ]);
     scenes.extend(large());
     scenes
 }
@@ -121,7 +150,7 @@ fn large() -> [Scene; 0] {
 }
 
 #[cfg(feature = "large")]
-fn large() -> [Scene; 14] {
+fn large() -> [Scene; 13] {
     [
         scene!("double-four-bar", "Two four-bars in a row", 6.0 s, DoubleFourBar through_singular),
         scene!("quintuple-four-bar", "Five four-bars in a row", 6.0 s,
@@ -139,9 +168,6 @@ fn large() -> [Scene; 14] {
             VariableLengthPendulum accurate,
             trace slider,
             "pin" ("rad") of |sample, h| sample.angle(h.pin)),
-        scene!("slider-crank", "Slider-crank", 0.2 s, SliderCrank accurate,
-            trace rod "middle of the rod" [0.0; 3],
-            "slider" ("m") of |sample, h| sample.displacement(h.guide)),
         scene!("heavy-chain", "A bob of 1000 kg on a chain of grams", 1.0 s, HeavyChain accurate),
         scene!("door", "Door on two hinges", 10.0 s, Door accurate,
             "lower hinge" ("rad") of |sample, h| sample.angle(h.lower_hinge)),
