@@ -11,6 +11,7 @@ mod order;
 mod rough;
 mod single_steps;
 mod switches;
+mod times;
 
 use holonom::prelude::*;
 use holonom_fixtures as _;

@@ -4,8 +4,9 @@
 //! and switches to the search for the first root of a step. `handling.rs` calls handlers and
 //! controllers between two segments. `setters.rs` is what a user writes, `single_step.rs` the same
 //! for a `Stepper`. `modes.rs` finds the modes of interactions anew at every such instant, and
-//! `stepper_modes.rs` for a `Stepper`. `sides.rs` turns laws that switch,
-//! `switching.rs` remembers their sides, and `instants.rs` knows those of the time ahead.
+//! `stepper_modes.rs` for a `Stepper`. `times.rs` has times that a user gives. `sides.rs` turns
+//! laws that switch, `switching.rs` remembers their sides, and `instants.rs` knows those of the
+//! time ahead.
 //!
 //! `sizes.rs` has what counts as nothing beside a reading or a motion.
 
@@ -22,3 +23,4 @@ mod single_step;
 mod sizes;
 pub(crate) mod stepper_modes;
 pub(crate) mod switching;
+pub(crate) mod times;
