@@ -43,6 +43,14 @@ pub enum StartFault {
         /// The instant (s).
         instant: f64,
     },
+    /// Times of [`Simulation::at`](crate::Simulation::at) that are not finite, or do not increase
+    /// by more than round-off.
+    Times {
+        /// The name of the handler.
+        name: &'static str,
+        /// The first such time (s).
+        time: f64,
+    },
     /// A setting of an [`Interaction`](crate::run::Interaction) that is not acceptable.
     InteractionSetting {
         /// The field of the joint or the point.
@@ -154,6 +162,11 @@ impl fmt::Display for StartFault {
                 f,
                 "an instant of `breaks` is {}: it must be finite",
                 Given(instant)
+            ),
+            Self::Times { name, time } => write!(
+                f,
+                "the times of `{name}` must be finite, and each greater than the one before; {} s is not",
+                Given(time)
             ),
             Self::InteractionSetting {
                 joint,

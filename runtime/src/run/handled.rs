@@ -23,7 +23,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         if self.course.hybrid.is_empty {
             return Ok(Handled::default());
         }
-        let is_found = core::mem::take(&mut self.course.hybrid.is_found);
+        let is_found = self.take_found(at.time)?;
         let is_turned = self.turn(at.time, &at.bodies)?;
         let done = self.act(is_found || is_turned, at)?;
         let event = self.course.hybrid.event.take().filter(|_| is_found);

@@ -8,13 +8,13 @@ use crate::run::observed::Observed;
 
 impl<S: Real, M: Mechanism> Observed<'_, S, M> {
     /// Shows an event that was found, turns laws that have switched, calls handlers and
-    /// controllers. The state is the one with which the run goes on; it is shown where anything has
-    /// changed it.
+    /// controllers. A given time of a handler is an event. The state is the one with which the run
+    /// goes on; it is shown where anything has changed it.
     pub(super) fn happen(&mut self, last_good: &mut StateAt<S, M>) -> Result<(), Fault> {
         if self.driver.course.hybrid.is_empty {
             return Ok(());
         }
-        let is_found = core::mem::take(&mut self.driver.course.hybrid.is_found);
+        let is_found = self.driver.take_found(last_good.time)?;
         if is_found && self.driver.course.unseen > 0 {
             self.schedule.at(last_good.time, 0);
             self.show(last_good.time, &last_good.bodies);

@@ -94,24 +94,24 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         true
     }
 
-    /// Where (s) an integration ends that begins at a time, at the latest: at a break, a controller
-    /// or a switch of the time alone.
+    /// Where (s) an integration ends that begins at a time, at the latest: at a break, a
+    /// controller, a given time of a handler or a switch of the time alone.
     fn next_end(&mut self, from: S, end: S) -> Result<S, Fault> {
         let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
         let until = self.next_instant(until);
         self.next_switch(from, until)
     }
 
-    /// The next instant (s) of a controller up to a time.
+    /// The next instant (s) of a controller or of a handler at given times, up to a time.
     fn next_instant(&mut self, until: S) -> S {
         let mut next = until;
         let _ = self.list.each(&mut |happening| {
-            if let Some(period) = happening.period()
-                && period.next() < next
-                && !is_same(period.next(), until)
-            {
-                next = period.next();
-            }
+            let of_controller = happening.period().map(|period| period.next());
+            let of_handler = happening.times().and_then(|times| times.next());
+            let instants = of_controller.into_iter().chain(of_handler);
+            next = instants
+                .filter(|&instant| !is_same(instant, until))
+                .fold(next, S::min);
             Ok(())
         });
         next

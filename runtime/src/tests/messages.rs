@@ -124,6 +124,13 @@ fn what_cannot_be_set_is_told_with_what_can() {
             Fault::Assembly(AssemblyFault::NotFree { joint: "pin" }),
             "what is to be set of joint `pin` is no motion that its equations leave free",
         ),
+        (
+            Fault::Start(StartFault::Times {
+                name: "kick",
+                time: 0.5,
+            }),
+            "the times of `kick` must be finite, and each greater than the one before; 0.5 s is not",
+        ),
     ] {
         assert_eq!(fault.to_string(), message);
     }

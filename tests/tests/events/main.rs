@@ -12,6 +12,7 @@ mod relays;
 mod rough;
 mod single_steps;
 mod switches;
+mod times;
 
 use holonom::prelude::*;
 use holonom_fixtures as _;

@@ -52,7 +52,8 @@ pub(crate) type Handler<'h, S, M> =
     dyn FnMut(&mut Event<'_, S, M>) -> Result<ControlFlow<()>, Fault> + 'h;
 
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
-    /// Calls controllers at the start, and takes the readings there. Whether one stops the run.
+    /// Calls handlers of that time and controllers at the start, and takes the readings there.
+    /// Whether one stops the run.
     pub(crate) fn begin_events(
         &mut self,
         At {
@@ -66,8 +67,12 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         self.begin_interactions()?;
         self.stand(*time, state, true)?;
         let before = self.watched_energies(*time, state);
-        let mut done = self.call(Phase::Relays, *time, state)?;
-        done.and(self.call(Phase::Controllers, *time, state)?);
+        let mut done = self.call(Phase::Times, *time, state)?;
+        self.follow(&done, *time, state)?;
+        if !done.stops {
+            done.and(self.call(Phase::Relays, *time, state)?);
+            done.and(self.call(Phase::Controllers, *time, state)?);
+        }
         self.stand(*time, state, true)?;
         if self.switch(*time, state, true)? {
             self.stand(*time, state, true)?;
@@ -98,9 +103,30 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         Ok(done.stops)
     }
 
-    /// The phases of an instant, in their order: impulses and modes of interactions, handlers,
-    /// relays, controllers, signs. Laws that have switched are turned before. After each phase that
-    /// has changed anything, sides of laws and modes of interactions are found anew.
+    /// Whether an event was found in the last step, or a handler is due at its end (s): by the name
+    /// of the first of them.
+    pub(crate) fn take_found(&mut self, time: S) -> Result<bool, Fault> {
+        let hybrid = &mut self.course.hybrid;
+        let is_found = core::mem::take(&mut hybrid.is_found);
+        let (mut is_due, mut event) = (false, None);
+        self.list.each(&mut |happening| {
+            let found = happening.watch().filter(|watch| watch.is_found());
+            let found = found.filter(|_| is_found).map(|watch| watch.name());
+            let due = happening.times().and_then(|times| times.due(time));
+            is_due |= due.is_some();
+            event = event.or(found).or(due);
+            Ok(())
+        })?;
+        if is_due {
+            hybrid.event = event;
+        }
+        Ok(is_found || is_due)
+    }
+
+    /// The phases of an instant, in their order: impulses and modes of interactions, handlers of
+    /// events and of the time, relays, controllers, signs. Laws that have switched are turned
+    /// before. After each phase that has changed anything, sides of laws and modes of interactions
+    /// are found anew.
     pub(crate) fn act(
         &mut self,
         is_found: bool,
@@ -130,6 +156,12 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             self.follow(&handled, time, state)?;
             done.moved |= handled.moved;
             done.stops = handled.stops;
+        }
+        if is_found && !done.stops {
+            let timed = self.call(Phase::Times, time, state)?;
+            self.follow(&timed, time, state)?;
+            done.moved |= timed.moved;
+            done.stops = timed.stops;
         }
         if !done.stops {
             let relayed = self.call(Phase::Relays, time, state)?;

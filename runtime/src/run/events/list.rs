@@ -11,6 +11,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::run::checkpoint::Checkpoint;
 use crate::run::events::changes::Changes;
 use crate::run::events::context::Event;
+use crate::run::events::times::Times;
 use crate::run::output::IntoFlow;
 use crate::run::past::Past;
 use crate::run::sample::Sample;
@@ -25,6 +26,8 @@ pub enum Phase<S> {
     /// Handlers of the events that pass their zeros at a time (s): at the instant, or by its
     /// round-off before it.
     Handlers(S),
+    /// Handlers at given times, behind those of events.
+    Times,
     /// Relays that begin, or that a handler has taken past their next threshold.
     Relays,
     /// Controllers, behind all handlers.
@@ -54,6 +57,11 @@ pub trait Happening<S: Real, M: Mechanism> {
 
     /// The period of a controller.
     fn period(&mut self) -> Option<&mut Period<S>> {
+        None
+    }
+
+    /// The times of a handler.
+    fn times(&mut self) -> Option<Times<'_, S>> {
         None
     }
 
@@ -164,6 +172,42 @@ where
     }
 }
 
+/// A handler with its times, see [`Simulation::at`](crate::Simulation::at).
+#[derive(Clone, Debug)]
+pub struct Timed<T, K> {
+    pub(super) name: &'static str,
+    pub(super) times: T,
+    pub(super) over: usize,
+    pub(super) handler: K,
+}
+
+impl<S, M, T, K, R> Happening<S, M> for Timed<T, K>
+where
+    S: Real,
+    M: Mechanism,
+    T: AsRef<[S]>,
+    K: FnMut(&mut Event<'_, S, M>) -> R,
+    R: IntoFlow,
+    R::Failure: Into<Fault>,
+{
+    fn due(&mut self, time: S, phase: Phase<S>) -> Option<&'static str> {
+        let mut times = Happening::<S, M>::times(self)?;
+        (phase == Phase::Times).then(|| times.call(time))?
+    }
+
+    fn times(&mut self) -> Option<Times<'_, S>> {
+        Some(Times {
+            name: self.name,
+            times: self.times.as_ref(),
+            over: &mut self.over,
+        })
+    }
+
+    fn act(&mut self, event: &mut Event<'_, S, M>) -> Result<ControlFlow<()>, Fault> {
+        (self.handler)(event).into_flow().map_err(Into::into)
+    }
+}
+
 /// A controller with its period, see
 /// [`Simulation::every_period`](crate::Simulation::every_period).
 #[derive(Clone, Debug)]
@@ -253,6 +297,9 @@ impl<S: Real, M: Mechanism> Hybrid<S, M> {
             }
             watches |= happening.watch().is_some();
             records |= happening.records();
+            if let Some(mut times) = happening.times() {
+                times.begin(start)?;
+            }
             let Some(period) = happening.period() else {
                 return Ok(());
             };

@@ -11,7 +11,7 @@ use crate::mechanism::kernels::InputsOf;
 #[cfg(feature = "std")]
 use crate::run::checkpoint::{Checkpoint, keeper::Keeping};
 use crate::run::events::context::Event;
-use crate::run::events::list::{Controlled, Handled};
+use crate::run::events::list::{Controlled, Handled, Timed};
 use crate::run::events::relay::Relay;
 use crate::run::output::{IntoFlow, Reporting};
 use crate::run::report::RunResult;
@@ -112,6 +112,64 @@ where
         self.and(Handled {
             watch: Watch::new(name, crossing),
             reading,
+            handler,
+        })
+    }
+
+    /// Calls a handler at each of these times (s), which increase. A step ends there, and the
+    /// integration begins anew.
+    ///
+    /// The handler may do what one of [`Simulation::on`] may, and comes behind those of events at
+    /// the same time and before controllers. Times outside the interval of the run are left out,
+    /// its start and its end are not. The observer is shown the state before the handler, but for
+    /// the start, and the one that it sets. In a run that a caller leads, such a time is
+    /// [`Reached::Event`](crate::run::Reached::Event) of its name. A run that goes on from a
+    /// checkpoint needs the same times, and calls for each once.
+    ///
+    /// ```
+    /// use holonom::prelude::*;
+    ///
+    /// /// A ball of 1 kg on a vertical rail.
+    /// #[derive(Mechanism)]
+    /// #[mechanism(gravity = [0.0, 0.0, -9.81])]
+    /// struct Ball {
+    ///     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 1.0])]
+    ///     ball: Body,
+    ///     #[joint(between = [ground, ball], point = [0.0, 0.0, 1.0], axis = [0.0, 0.0, 1.0])]
+    ///     rail: Prismatic,
+    /// }
+    ///
+    /// let (ball, h) = (Ball::default(), Ball::HANDLES);
+    /// let mut kicks = Vec::new();
+    /// ball.simulation(StandardLagrange, DormandPrince::default())
+    ///     .at("kick", [0.5, 1.2], |event| {
+    ///         kicks.push(event.time());
+    ///         event.set_displacement_rate(h.rail, 1.0)
+    ///     })
+    ///     .run(0.0..=1.5, every(0.1), |_| ())?;
+    /// assert_eq!(kicks, [0.5, 1.2]);
+    /// # Ok::<(), SimulationError<StateOf<Ball>>>(())
+    /// ```
+    ///
+    /// # Errors of the run
+    /// [`StartFault::Times`](crate::error::StartFault::Times) of times that are not finite or do
+    /// not increase, and those of [`Simulation::on`] for a handler.
+    #[must_use]
+    pub fn at<T, K, R>(
+        self,
+        name: &'static str,
+        times: T,
+        handler: K,
+    ) -> With<'a, P, I, H, Timed<T, K>>
+    where
+        T: AsRef<[P::Number]>,
+        K: FnMut(&mut Event<'_, P::Number, P::Mechanism>) -> R,
+        R: Handling,
+    {
+        self.and(Timed {
+            name,
+            times,
+            over: 0,
             handler,
         })
     }
