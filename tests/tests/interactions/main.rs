@@ -86,6 +86,8 @@ struct Falling {
     end: Point,
     #[point(on = rod, at = [0.0, -0.5, 1.0])]
     other: Point,
+    #[point(on = ground, at = [0.0, 0.5, 2.0])]
+    nail: Point,
 }
 
 /// A motor, and an output with two gears.
