@@ -40,8 +40,8 @@ pub(crate) use evaluate::{Evaluator, vanishes};
 pub(crate) use faults::singular;
 pub(crate) use problem::Carrying;
 pub use problem::{
-    Bodies, Posed, Problem, Solvable, State, UnderWay, WithCoordinates, WithForces,
-    WithInteractions, WithLaw,
+    Bodies, Posed, Problem, Solvable, State, UnderWay, WithCapacityFactor, WithCoordinates,
+    WithForces, WithInteractions, WithLaw,
 };
 
 use crate::assembly::consistent_start::check_start;

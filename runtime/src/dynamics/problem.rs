@@ -6,6 +6,7 @@ use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::interacting::{Heeding, Interacting};
 use crate::measure::load::{AppliedForces, ForceLaw, NoForces};
+use crate::measure::scaled::ScaledCapacity;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::{Mechanism, StateOf};
 
@@ -46,8 +47,8 @@ use crate::mechanism::kernels::{Mechanism, StateOf};
 /// # Ok::<(), Fault>(())
 /// ```
 ///
-/// [`WithCoordinates`], [`WithForces`] and [`WithInteractions`] say what was changed, as in
-/// `Stepper<WithInteractions<Swing, 1>, Rk4>`.
+/// [`WithCoordinates`], [`WithForces`], [`WithInteractions`] and [`WithCapacityFactor`] say what
+/// was changed, as in `Stepper<WithInteractions<Swing, 1>, Rk4>`.
 ///
 /// A function over all problems asks for a [`Solvable`]. One that runs or steps asks its method for
 /// [`Runs`](crate::Runs), [`Leads`](crate::run::Leads) or [`Steps`](crate::run::Steps) of it.
@@ -145,6 +146,10 @@ pub type WithInteractions<P, const N: usize> = WithForces<
     P,
     Interacting<<P as Posed>::Number, <P as Posed>::Mechanism, <P as Posed>::Forces, N>,
 >;
+
+/// The problem with a function `G` that scales the capacity of one interaction.
+pub type WithCapacityFactor<P, G> =
+    WithForces<P, ScaledCapacity<<P as Posed>::Mechanism, <P as Posed>::Forces, G>>;
 
 /// The problem with its forces under way, which have the limits of the description and the
 /// statuses of all interactions: what a step solves.

@@ -1,6 +1,6 @@
 //! What a user says of limits, dry friction, brakes and clutches in a run.
 
-use crate::dynamics::{Solvable, WithForces, WithInteractions};
+use crate::dynamics::{Solvable, WithCapacityFactor, WithForces, WithInteractions};
 use crate::integrate::Method;
 use crate::math::scalar::Real;
 use crate::measure::interacting::{Interacting, Unlimited};
@@ -127,7 +127,7 @@ where
         self,
         interaction: InteractionHandle<M>,
         factor: G,
-    ) -> Simulation<'a, WithForces<P, ScaledCapacity<M, P::Forces, G>>, I, H>
+    ) -> Simulation<'a, WithCapacityFactor<P, G>, I, H>
     where
         G: Fn(&View<'_, S, M>, &M::Inputs<S>) -> S,
     {

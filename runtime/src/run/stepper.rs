@@ -4,8 +4,8 @@ use core::fmt::{self, Debug};
 
 use crate::constraints::projection::Projection;
 use crate::dynamics::{
-    Bodies, Dynamics, Iterations, Posed, Problem, Solvable, State, UnderWay, WithCoordinates,
-    WithForces, WithInteractions, WithLaw,
+    Bodies, Dynamics, Iterations, Posed, Problem, Solvable, State, UnderWay, WithCapacityFactor,
+    WithCoordinates, WithForces, WithInteractions, WithLaw,
 };
 use crate::error::setting::positive;
 use crate::error::{Fault, ParameterError, StepFault};
@@ -222,7 +222,7 @@ impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
         self,
         interaction: InteractionHandle<P::Mechanism>,
         factor: G,
-    ) -> Stepper<WithForces<P, ScaledCapacity<P::Mechanism, P::Forces, G>>, K>
+    ) -> Stepper<WithCapacityFactor<P, G>, K>
     where
         G: Fn(&View<'_, P::Number, P::Mechanism>, &InputsOf<P::Mechanism, P::Number>) -> P::Number,
     {

@@ -90,6 +90,8 @@ struct Falling {
     foot: Point,
     #[point(on = rod, at = [0.0, -0.2, 1.0])]
     other_foot: Point,
+    #[point(on = ground, at = [0.0, 0.5, 2.0])]
+    nail: Point,
 }
 
 /// A motor, and an output with two gears.

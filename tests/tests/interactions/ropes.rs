@@ -265,6 +265,40 @@ fn a_distance_has_two_limits() {
     rattles::<Absolute>();
 }
 
+/// A level rod falls by 0.2 m until the rope at its end is tight: an impulse of `v / (1/m + a^2/I)`.
+fn catches_a_rod<C: Coordinates<Falling>>() {
+    let (falling, h) = (Falling::default(), Falling::HANDLES);
+    let interactions = [Interaction::rope(h.end, h.nail, 1.2)];
+    let [rope] = Interaction::handles(&interactions);
+    let start = falling.described_state().expect("it is described");
+    let energy = falling.view(0.0, &start).expect("a view").energy();
+    let rate = f64::sqrt(2.0 * GRAVITY * 0.2);
+    let report = Simulation::new(&falling, StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .interactions(interactions)
+        .run(0.0..=0.5, every(0.01), |sample| {
+            let Some(impact) = sample.impact(rope).expect("it is listed") else {
+                return;
+            };
+            assert!((impact.time - rate / GRAVITY).abs() < 1e-10);
+            assert!((impact.impulse + rate / 2.0).abs() < 1e-9, "{impact:?}");
+            let wanted = energy - rate * rate / 4.0;
+            let is_before = sample.time() == impact.time && sample.energy() > wanted + 0.1;
+            assert!(is_before || (sample.energy() - wanted).abs() < 1e-8);
+            assert!((sample.position(h.end) - sample.position(h.nail)).norm() < 1.2 + 1e-9);
+        })
+        .expect("it falls");
+    let view = falling.view(0.5, &report.state).expect("a view");
+    let distance = (view.position(h.end) - view.position(h.nail)).norm();
+    assert!((distance - 1.2).abs() < 1e-9, "{distance}");
+}
+
+#[test]
+fn a_rope_catches_the_end_of_a_rod() {
+    catches_a_rod::<Relative>();
+    catches_a_rod::<Absolute>();
+}
+
 /// The distance of two points of one body has no freedom, and the rope bears nothing.
 #[test]
 fn a_rope_along_a_rod_bears_nothing() {
