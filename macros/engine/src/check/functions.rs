@@ -22,6 +22,9 @@ const FUNCTIONS: [&str; 10] = [
     "atan2",
 ];
 
+/// What stands for a function that is no other one misspelt.
+pub(super) const TANGENT: &str = "; a tangent is `sin(x) / cos(x)`";
+
 impl Function {
     /// Why a number has no value of a function of this name; `None` where it has one.
     pub(super) fn refusal(self, name: &str, x: f64) -> Option<String> {
@@ -105,6 +108,9 @@ impl Context<'_> {
                     .chain(laws.iter().map(String::as_str))
                     .collect();
                 let mut near = did_you_mean(&name, known.iter().copied());
+                if name == "tan" {
+                    near = TANGENT.to_string();
+                }
                 if SWITCHING.iter().any(|(switching, _)| *switching == name) {
                     near = match self.kind {
                         ElementKind::Force => "; it stands in laws, which a mechanism gives: take a parameter that is a `Law`",

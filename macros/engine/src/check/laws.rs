@@ -6,6 +6,7 @@ use quote::ToTokens;
 use syn::{BinOp, Expr, UnOp};
 
 use super::elements::Found;
+use super::functions::TANGENT;
 use super::number::Numbers;
 use super::readings::Readings;
 use super::switching::{SWITCHING, is_switching};
@@ -176,7 +177,10 @@ impl LawReader<'_, '_, '_> {
                 .iter()
                 .copied()
                 .chain(splines.iter().map(String::as_str));
-            let near = did_you_mean(&name, all);
+            let near = match name.as_str() {
+                "tan" => TANGENT.to_string(),
+                _ => did_you_mean(&name, all),
+            };
             faults.at(
                 &call.func,
                 format!(

@@ -316,7 +316,7 @@ impl Writer<'_> {
             8 => format!("sqrt(1.0 + squared({}))", self.vector(depth, described)),
             9 => {
                 let inner = self.scalar(depth, described);
-                match self.dice.below(5) {
+                match self.dice.below(6) {
                     0 => format!("atan({inner})"),
                     1 => format!("asin(0.9 * sin({inner}))"),
                     2 => format!("acos(0.8 * cos({inner}))"),
