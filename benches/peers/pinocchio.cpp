@@ -1,38 +1,34 @@
-// What RNEA, CRBA and ABA of Pinocchio take for an arm of a URDF file.
+// What CRBA, RNEA, ABA and the derivatives of ABA of Pinocchio take for an arm of a URDF file.
 //
-// Prints lines `quantity nanoseconds`: the median of rounds over random states.
+// Prints a line `quantity nanoseconds` for each round over random states. All are functions of the
+// angles: sines and cosines are inside.
 
+#include <pinocchio/algorithm/aba-derivatives.hpp>
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/crba.hpp>
 #include <pinocchio/algorithm/model.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 #include <pinocchio/parsers/urdf.hpp>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <vector>
 
+#include "clock.h"
+
 namespace {
 
-constexpr int STATES = 64;
 constexpr int REPEATS = 40;
-constexpr int ROUNDS = 21;
 
-template <class Work> double median(Work work) {
-  std::vector<double> times;
+template <class Work> void measure(const char *name, Work work) {
+  // The first round warms up.
   for (int round = 0; round <= ROUNDS; ++round) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = processor_time();
     for (int repeat = 0; repeat < REPEATS; ++repeat)
       for (int state = 0; state < STATES; ++state)
         work(state);
-    const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
-    // The first round warms up.
     if (round > 0)
-      times.push_back(time.count() / (REPEATS * STATES));
+      std::printf("%s %.2f\n", name, (processor_time() - start) / (REPEATS * STATES));
   }
-  std::sort(times.begin(), times.end());
-  return times[times.size() / 2];
 }
 
 } // namespace
@@ -57,10 +53,12 @@ int main(int count, char **arguments) {
     rates.push_back(Eigen::VectorXd::Random(model.nv));
     others.push_back(Eigen::VectorXd::Random(model.nv));
   }
-  const double inverse = median(
-      [&](int k) { pinocchio::rnea(model, data, positions[k], rates[k], others[k]); });
-  const double mass = median([&](int k) { pinocchio::crba(model, data, positions[k]); });
-  const double forward = median(
-      [&](int k) { pinocchio::aba(model, data, positions[k], rates[k], others[k]); });
-  std::printf("mass %.2f\ninverse %.2f\nforward %.2f\n", mass, inverse, forward);
+  measure("mass-angles", [&](int k) { pinocchio::crba(model, data, positions[k]); });
+  measure("inverse-angles",
+          [&](int k) { pinocchio::rnea(model, data, positions[k], rates[k], others[k]); });
+  measure("forward-angles",
+          [&](int k) { pinocchio::aba(model, data, positions[k], rates[k], others[k]); });
+  measure("linearise-angles", [&](int k) {
+    pinocchio::computeABADerivatives(model, data, positions[k], rates[k], others[k]);
+  });
 }

@@ -13,7 +13,8 @@ use holonom_study::StudyError;
 use holonom_study::document::Table;
 use holonom_study::format::fixed;
 use holonom_study::statistics::Quartiles;
-use holonom_study::timing::{Candidate, Schedule, race};
+use holonom_study::target::Target;
+use holonom_study::timing::{Candidate, Race, Schedule, busy};
 
 use crate::reference_kernel::candidate;
 
@@ -34,8 +35,8 @@ pub struct Row {
     pub by: String,
     /// Operations, where they are known.
     pub operations: Option<usize>,
-    /// Nanoseconds.
-    pub time: f64,
+    /// The time of the processor (ns).
+    pub time: Quartiles,
 }
 
 /// Rows, and what the reference kernel takes in the same run (ns).
@@ -45,21 +46,33 @@ pub struct Measured {
     pub rows: Vec<Row>,
     /// The time `T` of the reference kernel (ns).
     pub unit: f64,
+    /// A sentence where the machine was not quiet.
+    pub busy: Option<String>,
+    /// What the programs of others were compiled for, where there are some.
+    pub peers: Option<String>,
 }
 
-/// What others have for a quantity, and what their programs call it.
-const QUANTITIES: [(&str, &str); 4] = [
+/// What is timed, and what the programs of others call it. Sines and cosines of the angles are part
+/// of a state: they are at hand in a run, and inside the clock where angles are measured.
+const QUANTITIES: [(&str, &str); 8] = [
     ("mass matrix", "mass"),
+    ("mass matrix, from angles", "mass-angles"),
     ("inverse dynamics", "inverse"),
+    ("inverse dynamics, from angles", "inverse-angles"),
     ("forward dynamics", "forward"),
+    ("forward dynamics, from angles", "forward-angles"),
     ("linearisation", "linearise"),
+    ("linearisation, from angles", "linearise-angles"),
 ];
+
+/// The file in which `benches/peers/build` says what it has compiled for.
+const FLAGS: &str = "flags";
 
 /// Programs of others for one arm: `pinocchio-ur5` and so on.
 struct Peer {
     by: String,
     program: PathBuf,
-    operations: Option<usize>,
+    operations: BTreeMap<String, usize>,
     times: BTreeMap<String, Vec<f64>>,
 }
 
@@ -72,21 +85,23 @@ impl Peer {
             if !program.is_file() {
                 return Err(fault(&program, "is not there: build it as its folder says"));
             }
-            let counted = std::fs::read_to_string(program.with_extension("operations")).ok();
-            let counted = counted
-                .as_deref()
-                .and_then(|text| text.split_whitespace().last());
+            let counted = std::fs::read_to_string(program.with_extension("operations"));
+            let counted = counted.unwrap_or_default();
+            let line = |line: &str| {
+                let (word, count) = line.split_once(' ')?;
+                Some((word.to_owned(), count.trim().parse().ok()?))
+            };
             Ok(Self {
                 by: (*by).to_owned(),
                 program,
-                operations: counted.and_then(|count| count.parse().ok()),
+                operations: counted.lines().filter_map(line).collect(),
                 times: BTreeMap::new(),
             })
         });
         peers.collect()
     }
 
-    /// Runs it once.
+    /// Runs it once: it prints a line `quantity nanoseconds` for each of its rounds.
     fn turn(&mut self) -> Result<(), StudyError> {
         let output = Command::new(&self.program).output();
         let output = output.map_err(|error| fault(&self.program, &error.to_string()))?;
@@ -111,8 +126,8 @@ impl Peer {
             arm,
             quantity,
             by: self.by.clone(),
-            operations: self.operations.filter(|_| word == "inverse"),
-            time: time.median,
+            operations: self.operations.get(word).copied(),
+            time,
         })
     }
 }
@@ -144,7 +159,15 @@ pub fn measure(
     let further = arm::<Panda, 7>("Panda", axes, (peers, schedule))?;
     progress(2);
     measured.rows.extend(further.rows);
-    measured.unit = 0.5 * (measured.unit + further.unit);
+    measured.unit = measured.unit.min(further.unit);
+    measured.busy = measured.busy.or(further.busy);
+    measured.peers = match peers.map(|folder| folder.join(FLAGS)) {
+        Some(file) => Some(
+            std::fs::read_to_string(&file)
+                .map_err(|_| fault(&file, "is not there: build it as its folder says"))?,
+        ),
+        None => None,
+    };
     Ok(measured)
 }
 
@@ -167,23 +190,19 @@ where
     let space = arm.coordinates(axes).map_err(refused)?;
     let states = states(&space).map_err(refused)?;
     let mut peers = peers.map_or(Ok(Vec::new()), |folder| Peer::all(folder, name))?;
-    let mut times = vec![Vec::new(); QUANTITIES.len() + 1];
+    let mut candidates = candidates(&space, &states)?;
+    let mut race = Race::new(&mut candidates, schedule.turn)?;
     for _ in 0..TURNS {
-        let each = Schedule {
-            rounds: schedule.rounds.div_ceil(TURNS),
-            ..schedule
-        };
-        let timings = race(&mut candidates(&space, &states)?, each, |_| ())?;
-        for (times, timing) in times.iter_mut().zip(timings) {
-            times.push(timing.time.median);
+        for _ in 0..schedule.rounds.div_ceil(TURNS) {
+            race.round()?;
         }
         for peer in &mut peers {
             peer.turn()?;
         }
     }
-    let median = |times: &Vec<f64>| Quartiles::of(times).map_or(f64::NAN, |time| time.median);
+    let timings = race.timings()?;
     let mut rows = Vec::new();
-    for (quantity, times) in QUANTITIES.into_iter().zip(&times) {
+    for (quantity, timing) in QUANTITIES.into_iter().zip(&timings) {
         let mut asked = M::JOINT_REPORT.asked.iter();
         let kernel = asked.find(|kernel| kernel.name == quantity.1);
         rows.push(Row {
@@ -191,18 +210,25 @@ where
             quantity: quantity.0,
             by: String::new(),
             operations: kernel.map(|kernel| kernel.operations.total()),
-            time: median(times),
+            time: timing.time,
         });
         rows.extend(peers.iter().filter_map(|peer| peer.row(name, quantity)));
     }
     Ok(Measured {
         rows,
-        unit: times.last().map_or(f64::NAN, median),
+        unit: timings.last().map_or(f64::NAN, |timing| timing.time.least),
+        busy: busy(&timings),
+        peers: None,
     })
 }
 
-/// A state, and numbers that are accelerations or torques.
-type Posed<M, const N: usize> = (<M as JointCoordinates>::JointState<f64>, [f64; N]);
+/// A state of these angles and rates, and numbers that are accelerations or torques.
+struct Posed<M: JointCoordinates, const N: usize> {
+    state: M::JointState<f64>,
+    angles: [f64; N],
+    rates: [f64; N],
+    others: [f64; N],
+}
 
 /// States between minus one and one (rad, rad/s), which do not depend on each other.
 fn states<M: JointRates, const N: usize>(
@@ -217,8 +243,13 @@ fn states<M: JointRates, const N: usize>(
     };
     let mut states = Vec::with_capacity(STATES);
     for _ in 0..STATES {
-        let [positions, rates, others] = std::array::from_fn(|_| std::array::from_fn(|_| draw()));
-        states.push((space.state(positions, rates)?, others));
+        let [angles, rates, others] = std::array::from_fn(|_| std::array::from_fn(|_| draw()));
+        states.push(Posed {
+            state: space.state(angles, rates)?,
+            angles,
+            rates,
+            others,
+        });
     }
     Ok(states)
 }
@@ -247,16 +278,29 @@ where
             Ok(states.len() as u64)
         })
     }
+    let of = |posed: &Posed<M, N>| space.state(posed.angles, posed.rates);
     Ok(vec![
-        each("mass", states, |(state, _)| space.mass(state)),
-        each("inverse", states, |(state, others)| {
-            space.inverse(state, *others)
+        each("mass", states, |posed| space.mass(&posed.state)),
+        each("mass, from angles", states, move |posed| {
+            space.mass(&of(posed)?)
         }),
-        each("forward", states, |(state, others)| {
-            space.forward(state, *others)
+        each("inverse", states, |posed| {
+            space.inverse(&posed.state, posed.others)
         }),
-        each("linearise", states, |(state, _)| {
-            space.linearise(state, [], |_| [])
+        each("inverse, from angles", states, move |posed| {
+            space.inverse(&of(posed)?, posed.others)
+        }),
+        each("forward", states, |posed| {
+            space.forward(&posed.state, posed.others)
+        }),
+        each("forward, from angles", states, move |posed| {
+            space.forward(&of(posed)?, posed.others)
+        }),
+        each("linearise", states, |posed| {
+            space.linearise(&posed.state, [], |_| [])
+        }),
+        each("linearise, from angles", states, move |posed| {
+            space.linearise(&of(posed)?, [], |_| [])
         }),
         candidate()?,
     ])
@@ -274,18 +318,32 @@ pub fn table(measured: &Measured) -> Table {
         vec![
             format!("{} {}{by}", row.arm, row.quantity),
             row.operations.map_or("-".into(), |count| count.to_string()),
-            fixed(row.time / measured.unit, 1),
-            fixed(row.time, 0),
+            fixed(row.time.least / measured.unit, 1),
+            fixed(row.time.least, 0),
+            format!(
+                "{} to {}",
+                fixed(row.time.lower, 0),
+                fixed(row.time.upper, 0)
+            ),
         ]
+    };
+    let compiled = match &measured.peers {
+        Some(flags) => format!(
+            " Compiled for {}; programs of others for: {}.",
+            Target::CURRENT,
+            flags.trim()
+        ),
+        None => String::new(),
     };
     Table {
         caption: "Equations of motion in the angles of an arm".into(),
-        columns: ["", "operations", "time (T)", "time (ns)"]
+        columns: ["", "operations", "time (T)", "time (ns)", "quartiles (ns)"]
             .map(String::from)
             .into(),
         rows: measured.rows.iter().map(row).collect(),
         note: format!(
-            "T = {} ns, the pendulum written by hand. Medians; states are drawn.",
+            "T = {} ns, the pendulum written by hand. Times are the least of all turns, by the clock of the thread's processor; states are drawn. From angles: their \
+             sines and cosines are computed within the time; else they are given, as a run has them.{compiled}",
             fixed(measured.unit, 1)
         ),
     }

@@ -67,12 +67,18 @@ fn every_right_hand_side_has_its_numbers() {
         }
         for time in [
             "nanoseconds_throughput",
+            "upper_quartile_nanoseconds",
+            "spread",
+            "processor_share",
             "nanoseconds_dependent",
             "rk4_step_nanoseconds",
             "reference_kernels",
         ] {
             assert!(object[time].as_f64().unwrap() > 0.0, "{time}");
         }
+        let number = |key: &str| object[key].as_f64().unwrap();
+        assert!(number("upper_quartile_nanoseconds") >= number("nanoseconds_throughput"));
+        assert!(number("spread") >= 1.0 && number("processor_share") <= 1.0);
         let by_assembler = object["scalar"] == "f64" && object["scene"] != "reference kernel";
         assert_eq!(
             object["assembler_nanoseconds"].is_f64(),

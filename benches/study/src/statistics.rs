@@ -1,8 +1,13 @@
 //! Order statistics of repeated measurements: what a disturbed machine leaves standing.
 
-/// The middle of a set of measurements and how far its halves reach.
+/// The least of a set of measurements, its middle and how far its halves reach.
+///
+/// Whatever else a machine does makes a run slower: the least is what the work takes, and the
+/// quartiles say how far measurements are from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quartiles {
+    /// The least of the measurements.
+    pub least: f64,
     /// A quarter of the measurements is at most this.
     pub lower: f64,
     /// Half of the measurements is at most this.
@@ -23,6 +28,7 @@ impl Quartiles {
         let mut sorted = measurements.to_vec();
         sorted.sort_by(f64::total_cmp);
         Some(Self {
+            least: quantile(&sorted, 0.0),
             lower: quantile(&sorted, 0.25),
             median: quantile(&sorted, 0.5),
             upper: quantile(&sorted, 0.75),
@@ -59,8 +65,8 @@ mod tests {
     fn quartiles_of_odd_and_even_sets() {
         let odd = Quartiles::of(&[5.0, 1.0, 3.0]).unwrap();
         assert_eq!(
-            (odd.lower, odd.median, odd.upper, odd.count),
-            (2.0, 3.0, 4.0, 3)
+            (odd.least, odd.lower, odd.median, odd.upper, odd.count),
+            (1.0, 2.0, 3.0, 4.0, 3)
         );
         let even = Quartiles::of(&[4.0, 1.0, 3.0, 2.0]).unwrap();
         assert_eq!((even.lower, even.median, even.upper), (1.75, 2.5, 3.25));

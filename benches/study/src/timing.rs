@@ -1,8 +1,11 @@
-//! Wall-clock time per evaluation, of several candidates in turn.
+//! The processor's time per evaluation, of several candidates in turn.
 //!
 //! Candidates are interleaved: every round gives each of them a turn, and the order rotates from
 //! round to round. A machine that slows down for a while slows all of them, so that ratios hold
 //! where absolute times do not.
+//!
+//! A turn is measured by the time that the processor gave to this thread. What the thread waited
+//! for its processor is left out, and told by [`busy`].
 
 use std::time::{Duration, Instant};
 
@@ -41,21 +44,59 @@ impl<'a> Candidate<'a> {
         &self.name
     }
 
-    /// Runs until `least` is over, at least once; nanoseconds per evaluation, and the evaluations
-    /// of one run.
-    fn turn(&mut self, least: Duration) -> Result<(f64, u64), StudyError> {
-        let start = Instant::now();
+    /// Runs until the processor has worked for `least`, at least once.
+    fn turn(&mut self, least: Duration) -> Result<Turn, StudyError> {
+        let (start, processor) = (Instant::now(), processor_time());
         let (mut runs, mut evaluations) = (0, 0);
+        // The clock of the processor is asked seldom: that takes longer than a short run.
+        let mut next = least;
         loop {
             evaluations += (self.run)()?;
             runs += 1;
-            let elapsed = start.elapsed();
-            if elapsed >= least {
-                let time = elapsed.as_secs_f64() * 1e9 / evaluations as f64;
-                return Ok((time, evaluations / runs));
+            let whole = start.elapsed();
+            if whole < next {
+                continue;
             }
+            let worked = match (processor, processor_time()) {
+                (Some(start), Some(end)) => end.saturating_sub(start),
+                _ => whole,
+            };
+            if worked >= least {
+                return Ok(Turn {
+                    time: worked.as_secs_f64() * 1e9 / evaluations as f64,
+                    evaluations: evaluations / runs,
+                    worked,
+                    whole,
+                });
+            }
+            next = whole + (least - worked);
         }
     }
+}
+
+/// The time that the processor has given to this thread, where the system tells.
+#[cfg(unix)]
+fn processor_time() -> Option<Duration> {
+    use rustix::time::{ClockId, clock_gettime};
+    Duration::try_from(clock_gettime(ClockId::ThreadCPUTime)).ok()
+}
+
+/// The time that the processor has given to this thread, where the system tells.
+#[cfg(not(unix))]
+fn processor_time() -> Option<Duration> {
+    None
+}
+
+/// A turn of a candidate.
+struct Turn {
+    /// Per evaluation (ns).
+    time: f64,
+    /// Evaluations of one run.
+    evaluations: u64,
+    /// What the processor worked.
+    worked: Duration,
+    /// From the start to the end.
+    whole: Duration,
 }
 
 /// What an evaluation costs.
@@ -67,6 +108,41 @@ pub struct Timing {
     pub time: Quartiles,
     /// The evaluations of one run.
     pub evaluations: u64,
+    /// The part of the time in which this thread had a processor, over all turns of all candidates.
+    pub share: f64,
+}
+
+/// A sentence where a machine was so busy that its times are to be doubted: the thread had to wait
+/// for its processor, or half of the turns took far longer than the best. Nothing on a quiet one.
+#[must_use]
+pub fn busy<'t>(timings: impl IntoIterator<Item = &'t Timing>) -> Option<String> {
+    let timings: Vec<&Timing> = timings.into_iter().collect();
+    let share = timings
+        .iter()
+        .map(|timing| timing.share)
+        .fold(1.0, f64::min);
+    let spreads = timings
+        .iter()
+        .map(|timing| timing.time.median / timing.time.least);
+    let spread = Quartiles::of(&spreads.collect::<Vec<_>>()).map_or(1.0, |spread| spread.median);
+    busy_sentence(share, spread)
+}
+
+/// The same of the share of the processor, and of the median over the least of most candidates.
+#[must_use]
+pub fn busy_sentence(share: f64, spread: f64) -> Option<String> {
+    /// Less of a processor than this is not that of a quiet machine.
+    const QUIET_SHARE: f64 = 0.95;
+    /// Turns that are longer by more than this are not those of a quiet machine.
+    const QUIET_SPREAD: f64 = 1.15;
+    (share < QUIET_SHARE || spread > QUIET_SPREAD).then(|| {
+        format!(
+            "This machine was busy: the thread had a processor for {:.0} % of the time, and half of the turns took {:.0} % longer than the best, or more. \
+             Repeat this on a quiet one.",
+            100.0 * share,
+            100.0 * (spread - 1.0)
+        )
+    })
 }
 
 /// How often and how long to measure.
@@ -75,7 +151,7 @@ pub struct Schedule {
     /// Rounds; each gives one measurement per candidate. One more round warms up and is not
     /// counted.
     pub rounds: usize,
-    /// A turn repeats its run until this time is over.
+    /// A turn repeats its run until the processor has worked for this time.
     pub turn: Duration,
 }
 
@@ -85,6 +161,83 @@ impl Default for Schedule {
             rounds: 41,
             turn: Duration::from_millis(2),
         }
+    }
+}
+
+/// A race that goes on round by round, so that something else may be done between two rounds.
+#[derive(Debug)]
+pub struct Race<'a, 'c> {
+    candidates: &'c mut [Candidate<'a>],
+    turn: Duration,
+    rounds: usize,
+    measurements: Vec<Vec<f64>>,
+    evaluations: Vec<u64>,
+    worked: Duration,
+    whole: Duration,
+}
+
+impl<'a, 'c> Race<'a, 'c> {
+    /// A round that warms up and is not counted.
+    ///
+    /// # Errors
+    /// The first error of a candidate.
+    pub fn new(candidates: &'c mut [Candidate<'a>], turn: Duration) -> Result<Self, StudyError> {
+        let mut evaluations = Vec::with_capacity(candidates.len());
+        for candidate in candidates.iter_mut() {
+            evaluations.push(candidate.turn(turn)?.evaluations);
+        }
+        Ok(Self {
+            measurements: vec![Vec::new(); candidates.len()],
+            candidates,
+            turn,
+            rounds: 0,
+            evaluations,
+            worked: Duration::ZERO,
+            whole: Duration::ZERO,
+        })
+    }
+
+    /// A turn of every candidate.
+    ///
+    /// # Errors
+    /// The first error of a candidate.
+    pub fn round(&mut self) -> Result<(), StudyError> {
+        for place in 0..self.candidates.len() {
+            let which = (place + self.rounds) % self.candidates.len();
+            let turn = self.candidates[which].turn(self.turn)?;
+            self.measurements[which].push(turn.time);
+            self.worked += turn.worked;
+            self.whole += turn.whole;
+        }
+        self.rounds += 1;
+        Ok(())
+    }
+
+    /// The time per evaluation of every candidate, in their order.
+    ///
+    /// # Errors
+    /// [`StudyError::NotFinite`] where a candidate counts no evaluations or there was no round.
+    pub fn timings(&self) -> Result<Vec<Timing>, StudyError> {
+        let share = match self.whole.as_secs_f64() {
+            0.0 => 1.0,
+            whole => (self.worked.as_secs_f64() / whole).min(1.0),
+        };
+        let mut timings = Vec::with_capacity(self.candidates.len());
+        let measured = self.candidates.iter().zip(&self.measurements);
+        for ((candidate, measurements), evaluations) in measured.zip(&self.evaluations) {
+            let name = candidate.name.clone();
+            let time = Quartiles::of(measurements).filter(|time| time.median.is_finite());
+            let time = time.ok_or_else(|| StudyError::NotFinite {
+                what: format!("the time per evaluation of {name}"),
+            })?;
+            timings.push(Timing {
+                name,
+                time,
+                evaluations: *evaluations,
+                share,
+            });
+        }
+        Ok(timings)
     }
 }
 
@@ -100,39 +253,17 @@ pub fn race(
     schedule: Schedule,
     mut progress: impl FnMut(usize),
 ) -> Result<Vec<Timing>, StudyError> {
-    let mut measurements = vec![Vec::with_capacity(schedule.rounds); candidates.len()];
-    let mut evaluations = Vec::with_capacity(candidates.len());
-    for candidate in candidates.iter_mut() {
-        evaluations.push(candidate.turn(schedule.turn)?.1);
-    }
+    let mut race = Race::new(candidates, schedule.turn)?;
     for round in 0..schedule.rounds {
-        for place in 0..candidates.len() {
-            let which = (place + round) % candidates.len();
-            measurements[which].push(candidates[which].turn(schedule.turn)?.0);
-        }
+        race.round()?;
         progress(round + 1);
     }
-    let mut timings = Vec::with_capacity(candidates.len());
-    for ((candidate, measurements), evaluations) in
-        candidates.iter().zip(measurements).zip(evaluations)
-    {
-        let name = candidate.name.clone();
-        let time = Quartiles::of(&measurements).filter(|time| time.median.is_finite());
-        let time = time.ok_or_else(|| StudyError::NotFinite {
-            what: format!("the time per evaluation of {name}"),
-        })?;
-        timings.push(Timing {
-            name,
-            time,
-            evaluations,
-        });
-    }
-    Ok(timings)
+    race.timings()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Candidate, Schedule, race};
+    use super::{Candidate, Schedule, busy, busy_sentence, race};
     use crate::error::StudyError;
     use std::cell::RefCell;
     use std::time::Duration;
@@ -167,25 +298,43 @@ mod tests {
 
     #[test]
     fn time_is_divided_by_the_evaluations() {
-        let spin = |_| std::thread::sleep(Duration::from_millis(1));
-        let mut candidates = [
-            Candidate::new("one", || {
-                Ok({
-                    spin(());
-                    1
-                })
-            }),
-            Candidate::new("thousand", || {
-                Ok({
-                    spin(());
-                    1000
-                })
-            }),
-        ];
+        let work = || {
+            let sum = (0..200_000_u64).fold(0, |sum, k| std::hint::black_box(sum ^ k));
+            std::hint::black_box(sum);
+        };
+        let candidate = |name: &'static str, evaluations| {
+            Candidate::new(name, move || {
+                work();
+                Ok(evaluations)
+            })
+        };
+        let mut candidates = [candidate("one", 1), candidate("thousand", 1000)];
         let timings = race(&mut candidates, SHORT, |_| ()).unwrap();
-        assert!(timings[0].time.median > 1e6);
-        assert!(timings[0].time.median > 50.0 * timings[1].time.median);
+        assert!(timings[0].time.least > 50.0 * timings[1].time.least);
         assert_eq!(timings[1].evaluations, 1000);
+    }
+
+    /// A thread that waits takes no time of the processor; that it waited is told.
+    #[test]
+    #[cfg(unix)]
+    fn what_a_thread_waits_is_no_work() {
+        let wait = || {
+            std::thread::sleep(Duration::from_millis(20));
+            Ok(1)
+        };
+        let mut candidates = [Candidate::new("waits", wait)];
+        let timings = race(&mut candidates, SHORT, |_| ()).unwrap();
+        assert!(timings[0].time.least < 10e6, "{:?}", timings[0]);
+        assert!(timings[0].share < 0.5);
+        let sentence = busy(&timings).expect("it was not quiet");
+        assert!(sentence.contains("had a processor for"), "{sentence}");
+    }
+
+    #[test]
+    fn a_quiet_machine_gets_no_word() {
+        assert_eq!(busy_sentence(0.99, 1.05), None);
+        assert!(busy_sentence(0.9, 1.0).is_some());
+        assert!(busy_sentence(1.0, 1.3).is_some_and(|text| text.contains("30 % longer")));
     }
 
     #[test]

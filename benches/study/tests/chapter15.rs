@@ -1,17 +1,20 @@
 //! Chapter 15 with the generated pendulum: the counts, the violations and the errors that the study
 //! has to show.
 
+use std::path::Path;
 use std::time::Duration;
 
 use holonom::joints::Revolute;
+use holonom::run::Simulate as _;
 use holonom::{
-    AugmentedLagrangian, Baumgarte, DormandPrince, Formulation, Mechanism, Penalty,
-    StandardLagrange, Tolerance, integrate::TimeSpan,
+    AugmentedLagrangian, Baumgarte, DormandPrince, Fault, Formulation, Mechanism, Penalty,
+    StandardLagrange, Tolerance, every, integrate::TimeSpan,
 };
 use holonom_models::RodPendulum;
 use holonom_study::chapter15::outcome::{Instant, Outcome};
 use holonom_study::chapter15::run::{Kind, Rival, Subject, compare};
 use holonom_study::chapter15::{Method, Settings};
+use holonom_study::chart::{Axis, Chart, Mark, Series};
 use holonom_study::timing::{Candidate, Schedule};
 
 const QUICK: Schedule = Schedule {
@@ -181,4 +184,50 @@ fn a_run_that_stops_says_which_and_why() {
         text.contains("standard") && text.contains("tolerance"),
         "{text}"
     );
+}
+
+/// The pictures of the guide's first program. `HOLONOM_DRAW=1 cargo test -p holonom-study --test
+/// chapter15` writes them anew.
+#[test]
+fn the_guide_shows_what_its_first_program_prints() {
+    let (pendulum, handles) = (RodPendulum::default(), RodPendulum::HANDLES);
+    let (mut angles, mut forces) = (Vec::new(), Vec::new());
+    let report = pendulum
+        .simulation(StandardLagrange, DormandPrince::default())
+        .run(0.0..=2.0, every(0.02), |sample| -> Result<(), Fault> {
+            let force = sample.reaction(handles.pivot, handles.rod)?.force.norm();
+            angles.push((sample.time(), sample.angle(handles.pivot)));
+            forces.push((sample.time(), force));
+            Ok(())
+        })
+        .unwrap();
+    assert!(report.warnings().is_empty());
+    let chart = |quantity: &str, unit: &str, name: &str, points| Chart {
+        title: format!("{name} of the pendulum"),
+        x: Axis::linear("time", "s"),
+        y: Axis::linear(quantity, unit),
+        series: vec![Series {
+            name: name.into(),
+            slot: 0,
+            mark: Mark::Line,
+            points,
+        }],
+    };
+    for (file, chart) in [
+        ("first_angle", chart("angle", "rad", "Angle", angles)),
+        ("first_reaction", chart("reaction", "N", "Reaction", forces)),
+    ] {
+        let drawn = chart.draw().unwrap().svg;
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../runtime/src/guide")
+            .join(file)
+            .with_extension("svg");
+        if std::env::var_os("HOLONOM_DRAW").is_some() {
+            std::fs::write(&path, &drawn).unwrap();
+        }
+        let kept = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(kept == drawn, "{} is not what is drawn now", path.display());
+        // An empty line would end it within a page of documentation.
+        assert!(!drawn.contains("\n\n"));
+    }
 }

@@ -27,8 +27,8 @@ pub(crate) fn study(arguments: &Arms) -> Result<(), Box<dyn Error>> {
         rounds: arguments.rounds.into(),
         ..Schedule::default()
     };
-    // Five candidates of two arms.
-    let turns = 10 * (u32::from(arguments.rounds) + 1);
+    // Nine candidates of two arms.
+    let turns = 18 * (u32::from(arguments.rounds) + 1);
     announce(
         "two arms, by the count of turns",
         schedule.turn * turns + Duration::from_secs(1),
@@ -38,12 +38,13 @@ pub(crate) fn study(arguments: &Arms) -> Result<(), Box<dyn Error>> {
         bar.set_position(done as u64);
     });
     bar.finish_and_clear();
+    let measured = measured?;
     let document = Document {
         title: "The equations of motion of two arms".into(),
-        lead: Vec::new(),
+        lead: measured.busy.iter().cloned().collect(),
         sections: vec![Section {
             heading: "In the angles of the axes".into(),
-            blocks: vec![Block::Table(arms::table(&measured?))],
+            blocks: vec![Block::Table(arms::table(&measured))],
         }],
         colophon: vec![Target::CURRENT.to_string()],
     };

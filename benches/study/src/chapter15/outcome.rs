@@ -209,12 +209,14 @@ pub(crate) mod tests {
         let price = |name: &str, median: f64| Timing {
             name: name.into(),
             time: Quartiles {
+                least: 0.8 * median,
                 lower: 0.9 * median,
                 median,
                 upper: 1.1 * median,
                 count: 41,
             },
             evaluations: 1765,
+            share: 1.0,
         };
         let mut iterations = Iterations::default();
         if method == Method::AugmentedLagrangian {

@@ -6,7 +6,8 @@ use super::{Coordinates, Precision, REFERENCE_KERNEL};
 use crate::chapter15::Method;
 use crate::error::StudyError;
 
-/// One right-hand side in `compare.json`. Times are medians of interleaved rounds (ns).
+/// One right-hand side in `compare.json`. Times are those of the processor, the least of
+/// interleaved rounds (ns).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The mechanism, `reference kernel` for the pendulum written by hand.
@@ -29,6 +30,12 @@ pub struct Row {
     pub stage_operations: usize,
     /// An evaluation through the public interface, at states that do not depend on each other.
     pub nanoseconds_throughput: f64,
+    /// Three quarters of its turns were at most as long as this.
+    #[serde(default)]
+    pub upper_quartile_nanoseconds: f64,
+    /// The median of its turns over the least.
+    #[serde(default = "quiet")]
+    pub spread: f64,
     /// The same at states that the evaluation before has a part in.
     pub nanoseconds_dependent: f64,
     /// A whole step of Runge-Kutta, four evaluations, from states that do not depend on each other.
@@ -43,6 +50,14 @@ pub struct Row {
     pub reference_kernels: f64,
     /// What the program was compiled for.
     pub build: String,
+    /// The part of the time in which the race had a processor.
+    #[serde(default = "quiet")]
+    pub processor_share: f64,
+}
+
+/// Of numbers that were written before a machine was asked whether it is quiet.
+fn quiet() -> f64 {
+    1.0
 }
 
 impl Row {
@@ -97,6 +112,9 @@ pub fn json(rows: &[Row]) -> Result<String, StudyError> {
         let optional = [row.assembler_nanoseconds, row.kernel_nanoseconds];
         let times = [
             row.nanoseconds_throughput,
+            row.upper_quartile_nanoseconds,
+            row.spread,
+            row.processor_share,
             row.nanoseconds_dependent,
             row.rk4_step_nanoseconds,
             row.reference_kernels,

@@ -10,7 +10,9 @@ use crate::document::{Block, Document, Section};
 use crate::error::StudyError;
 use crate::files::write_atomically;
 use crate::page::write_page;
+use crate::statistics::Quartiles;
 use crate::target::Target;
+use crate::timing::busy_sentence;
 
 /// The command that the numbers are made with.
 pub const COMMAND: &str = "RUSTFLAGS=\"-C target-cpu=native\" cargo run --release --target-dir target/native --bin study -- compare --large";
@@ -80,11 +82,11 @@ pub fn document(rows: &[Row], refused: &[Refused], beside: &Beside, target: &Tar
             vec![text("Not measured: --compile does.")],
         ),
     });
-    Document {
+    let mut document = Document {
         title: "What an evaluation costs".into(),
         lead: vec![
             "Mechanisms by their bodies and by their joints, in four formulations and two number types. Everything is timed in one race: in every round each \
-             right-hand side has a turn, and a time is the median of its turns. Evaluations go over up to 64 states of a motion, and do not depend on each other; those that wait \
+             right-hand side has a turn, and a time is the least of its turns, by the clock of the thread's processor. Evaluations go over up to 64 states of a motion, and do not depend on each other; those that wait \
              have the rates of the last evaluation in their state. Steps of Runge-Kutta start from states that do not depend on each other."
                 .into(),
             "The reference kernel is the pendulum of chapter 15 of Flores (2015) by its bodies, written by hand: masses eliminated first, five equations solved by L D Lᵀ, \
@@ -99,7 +101,20 @@ pub fn document(rows: &[Row], refused: &[Refused], beside: &Beside, target: &Tar
                 env!("CARGO_PKG_VERSION")
             ),
         ],
-    }
+    };
+    document.lead.splice(0..0, busy(rows));
+    document
+}
+
+/// A sentence where the machine was not quiet.
+fn busy(rows: &[Row]) -> Option<String> {
+    let share = rows
+        .iter()
+        .map(|row| row.processor_share)
+        .fold(1.0, f64::min);
+    let spreads: Vec<f64> = rows.iter().map(|row| row.spread).collect();
+    let spread = Quartiles::of(&spreads).map_or(1.0, |spread| spread.median);
+    busy_sentence(share, spread)
 }
 
 /// What was refused, one sentence for each reason.

@@ -77,13 +77,14 @@ pub fn run(
     }
 
     let timings = race(&mut all, schedule, progress)?;
-    let time = |place: usize| timings[place].time.median;
+    let time = |place: usize| timings[place].time.least;
     let unit = entries
         .first()
         .map_or(f64::NAN, |entry| time(entry.places[0]));
     let build = Target::CURRENT.to_string();
     let row = |entry: &Entry| {
         let [throughput, dependent, step] = entry.places.map(time);
+        let turns = timings[entry.places[0]].time;
         let forms = forms.get(&(entry.scene, entry.n, entry.method.key()));
         let assembler = forms.filter(|_| entry.precision == Precision::Double);
         let fastest = |places: &Vec<usize>| {
@@ -100,12 +101,15 @@ pub fn run(
             path: entry.operations.depth,
             stage_operations: entry.stage.total(),
             nanoseconds_throughput: throughput,
+            upper_quartile_nanoseconds: turns.upper,
+            spread: turns.median / turns.least,
             nanoseconds_dependent: dependent,
             rk4_step_nanoseconds: step,
             assembler_nanoseconds: assembler.map(fastest),
             kernel_nanoseconds: entry.kernel.map(time),
             reference_kernels: throughput / unit,
             build: build.clone(),
+            processor_share: timings[entry.places[0]].share,
         }
     };
     Ok(entries.iter().map(row).collect())
