@@ -201,7 +201,7 @@ fn panel(
             "<path class=\"foot\" d=\"M{x:.1},{y:.1}L{a:.1},{c:.1}H{b:.1}Z\"/>"
         );
     }
-    bodies(text, subject, &at, &mut obstacles);
+    bodies(text, subject, at, &mut obstacles);
     for (body, circle) in circles {
         for place in circle {
             obstacles.point(at(*place));
@@ -240,7 +240,7 @@ fn panel(
         );
         obstacles.point([x, y]);
     }
-    let labels = joints(text, (subject, anchors), &at, scale, &mut obstacles);
+    let labels = joints(text, (subject, anchors), at, scale, &mut obstacles);
     let within = [left, top, left + wide, top + height];
     labels::draw(text, &labels, obstacles, within);
     height
