@@ -44,9 +44,9 @@
 //!
 //! # The page
 //!
-//! The page plays, loops and seeks, and is turned by mouse or touch. A plane mechanism is first seen
-//! along its normal. `Fit` shows what has mass; the far ends of springs may be outside. The corner
-//! shows the axes of the ground: x red, y green, z blue.
+//! The page plays, loops and seeks, and is turned by mouse or touch. A plane mechanism is first
+//! seen along its normal. `Fit` shows what has mass; the far ends of springs may be outside. The
+//! corner shows the axes of the ground: x red, y green, z blue.
 //!
 //! Point at a part, or touch it, to see its name. Click it to select it. Of a body the page then
 //! shows the position of its centre of mass, its speed and its angular speed, and the camera can
@@ -91,8 +91,8 @@
 //! # Other files
 //!
 //! With the feature `gltf`, `Film::save_gltf` writes the same motion for Blender, game engines and
-//! slides. [`Film::save_svg`] writes a moving picture. [`Sketch`] draws the reference configuration,
-//! before anything runs.
+//! slides. [`Film::save_svg`] writes a moving picture. [`Sketch`] draws the reference
+//! configuration, before anything runs.
 //!
 //! The drawing is done by three.js, of which the page holds what it needs: below 700 kB.
 

@@ -227,8 +227,8 @@ impl<M: Mechanism> Film<M> {
         values.push(value.to_f64() as f32);
     }
 
-    /// Shows another run of the mechanism too: its bodies are seen through, at the same times, under
-    /// the title of its film. Before and after its frames they stand still.
+    /// Shows another run of the mechanism too: its bodies are seen through, at the same times,
+    /// under the title of its film. Before and after its frames they stand still.
     pub fn ghost(&mut self, other: &Self) {
         self.ghost = (other.frames() > 0).then(|| Ghost {
             title: other.title.clone(),
@@ -323,8 +323,8 @@ impl<M: Mechanism> Film<M> {
     }
 
     /// The film as a glTF file of one piece, for Blender, three.js, game engines and slides: a node
-    /// a body, and an animation. Angles between frames turn the short way: record them closely. Needs
-    /// the feature `gltf`.
+    /// a body, and an animation. Angles between frames turn the short way: record them closely.
+    /// Needs the feature `gltf`.
     ///
     /// # Errors
     /// As [`Film::html`].

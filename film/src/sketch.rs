@@ -201,32 +201,7 @@ fn panel(
             "<path class=\"foot\" d=\"M{x:.1},{y:.1}L{a:.1},{c:.1}H{b:.1}Z\"/>"
         );
     }
-    for body in 0..subject.bodies {
-        let bars = subject.bars(body);
-        if bars.is_empty() {
-            let ([x, y], colour) = (at(subject.place(0, Some(body), [0.0; 3])), colour(body));
-            let _ = write!(
-                text,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"11\" fill=\"{colour}\"/>"
-            );
-        }
-        for [from, to] in bars {
-            let [x1, y1] = at(subject.place(0, Some(body), from.into()));
-            let [x2, y2] = at(subject.place(0, Some(body), to.into()));
-            let colour = colour(body);
-            obstacles.line([x1, y1], [x2, y2]);
-            let _ = write!(
-                text,
-                "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"{colour}\" stroke-width=\"7\" stroke-linecap=\"round\"/>"
-            );
-        }
-        let [x, y] = at(subject.place(0, Some(body), [0.0; 3]));
-        let (a, b, c, d) = (x - 4.0, x + 4.0, y - 4.0, y + 4.0);
-        let _ = write!(
-            text,
-            "<path class=\"centre\" d=\"M{a:.1},{y:.1}H{b:.1}M{x:.1},{c:.1}V{d:.1}\"/>"
-        );
-    }
+    bodies(text, subject, at, &mut obstacles);
     for (body, circle) in circles {
         for place in circle {
             obstacles.point(at(*place));
@@ -265,6 +240,55 @@ fn panel(
         );
         obstacles.point([x, y]);
     }
+    let labels = joints(text, (subject, anchors), at, scale, &mut obstacles);
+    let within = [left, top, left + wide, top + height];
+    labels::draw(text, &labels, obstacles, within);
+    height
+}
+
+/// Bars and centres of mass.
+fn bodies(
+    text: &mut String,
+    subject: &Subject<'_>,
+    at: impl Fn(Vector3<f64>) -> [f64; 2],
+    obstacles: &mut Obstacles,
+) {
+    for body in 0..subject.bodies {
+        let bars = subject.bars(body);
+        if bars.is_empty() {
+            let ([x, y], colour) = (at(subject.place(0, Some(body), [0.0; 3])), colour(body));
+            let _ = write!(
+                text,
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"11\" fill=\"{colour}\"/>"
+            );
+        }
+        for [from, to] in bars {
+            let [x1, y1] = at(subject.place(0, Some(body), from.into()));
+            let [x2, y2] = at(subject.place(0, Some(body), to.into()));
+            let colour = colour(body);
+            obstacles.line([x1, y1], [x2, y2]);
+            let _ = write!(
+                text,
+                "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"{colour}\" stroke-width=\"7\" stroke-linecap=\"round\"/>"
+            );
+        }
+        let [x, y] = at(subject.place(0, Some(body), [0.0; 3]));
+        let (a, b, c, d) = (x - 4.0, x + 4.0, y - 4.0, y + 4.0);
+        let _ = write!(
+            text,
+            "<path class=\"centre\" d=\"M{a:.1},{y:.1}H{b:.1}M{x:.1},{c:.1}V{d:.1}\"/>"
+        );
+    }
+}
+
+/// Axes of joints; where their numbers belong. Joints that are drawn at one place share a label.
+fn joints(
+    text: &mut String,
+    (subject, anchors): (&Subject<'_>, &[Marker]),
+    at: impl Fn(Vector3<f64>) -> [f64; 2],
+    scale: f64,
+    obstacles: &mut Obstacles,
+) -> Vec<([f64; 2], String)> {
     let joints: Vec<&Element> = subject
         .elements
         .iter()
@@ -298,16 +322,11 @@ fn panel(
             None => labels.push((place, vec![joint + 1])),
         }
     }
-    let labels: Vec<_> = labels
-        .into_iter()
-        .map(|(place, several)| {
-            let numbers: Vec<String> = several.iter().map(ToString::to_string).collect();
-            (place, numbers.join(", "))
-        })
-        .collect();
-    let within = [left, top, left + wide, top + height];
-    labels::draw(text, &labels, obstacles, within);
-    height
+    let labels = labels.into_iter().map(|(place, several)| {
+        let numbers: Vec<String> = several.iter().map(ToString::to_string).collect();
+        (place, numbers.join(", "))
+    });
+    labels.collect()
 }
 
 /// The body of a wheel, and places around its pitch circle.

@@ -109,8 +109,8 @@ looks.urdf:10: link \"a\": `xyz` is \"1\"; 3 numbers with spaces between them ar
     assert_eq!(said.expect_err("refused"), wanted);
 }
 
-/// The frame of the mesh in that of its link, and of the ground, by hand: the centre of mass is half
-/// a metre along y from the link.
+/// The frame of the mesh in that of its link, and of the ground, by hand: the centre of mass is
+/// half a metre along y from the link.
 #[test]
 fn meshes_have_their_frames_on_bodies() {
     let text = ROBOT.replace(
