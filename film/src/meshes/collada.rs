@@ -2,6 +2,9 @@
 //!
 //! The axis that is named as up is not turned to z, as RViz does not turn it: files of robots have
 //! the axes of their links. The unit of the file counts. Skins, splines and textures are left out.
+//!
+//! Read here because the crates that read all of Collada end the program at files that they do not
+//! expect, or have licences that `deny.toml` does not allow.
 
 use std::collections::HashMap;
 
