@@ -233,8 +233,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     ///   along the axis does not count.
     /// - Of a hinge with a [`Interaction::collar`] the force along the axis counts as well.
     /// - Of a screw it is `mu r |N| / cos(l)` (N m). Here `r` is the mean [`Interaction::radius`]
-    ///   of its thread, `l` the lead angle, `tan(l) = pitch / (2 pi r)`, and `N` the force across the
-    ///   flank, which bears the thrust. So it locks itself where `mu > tan(l)`, and the moment that
+    ///   of its thread, `l` the lead angle, `tan(l) = pitch / (2 pi r)`, and `N` the force across
+    ///   the flank, which bears the thrust. So it locks itself where `mu > tan(l)`. The moment that
     ///   raises a load `F` is `F r tan(l + atan(mu))`. Of a flank that is inclined by an angle `b`
     ///   take `mu / cos(b)`. Forces across the axis do not count.
     /// - Moments do not count, unless the bearing has a length: [`Interaction::guide`].

@@ -176,7 +176,6 @@ fn a_relay_goes_on() {
             None => simulation.run(0.0..=5.0, every(0.1), |_| ()),
             Some(checkpoint) => simulation.resume(checkpoint, |_| ()),
         };
-        drop(simulation);
         (report, told, kept)
     };
     let (report, told, kept) = run(None, [1.0, 2.0]);

@@ -265,7 +265,8 @@ fn a_distance_has_two_limits() {
     rattles::<Absolute>();
 }
 
-/// A level rod falls by 0.2 m until the rope at its end is tight: an impulse of `v / (1/m + a^2/I)`.
+/// A level rod falls by 0.2 m until the rope at its end is tight. The impulse is `v / (1/m +
+/// a^2/I)`.
 fn catches_a_rod<C: Coordinates<Falling>>() {
     let (falling, h) = (Falling::default(), Falling::HANDLES);
     let interactions = [Interaction::rope(h.end, h.nail, 1.2)];

@@ -274,7 +274,6 @@ fn scaled_goes_on<C: Coordinates<Mill>>(
         Some(checkpoint) => simulation.resume(checkpoint, observe),
     };
     let report = report.expect("it runs");
-    drop(simulation);
     (report, shown, kept)
 }
 
