@@ -40,6 +40,7 @@ pub trait AppliedForces<S: Scalar, M: Mechanism>: Sealed {
     const OF_RUN: bool = false;
 
     /// The interactions of a run with these forces.
+    #[doc(hidden)]
     type Tracked: Several<Tracked<S, M>>;
 
     /// Those without the limits of the description.
@@ -51,6 +52,7 @@ pub trait AppliedForces<S: Scalar, M: Mechanism>: Sealed {
     type List: Several<Tracked<S, M>>;
 
     /// The same with other forces.
+    #[doc(hidden)]
     type With<B: AppliedForces<S, M>>: AppliedForces<S, M>;
 
     /// Adds the forces at a time and a state.
