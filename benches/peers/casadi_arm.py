@@ -1,4 +1,4 @@
-"""The equations of motion of an arm as CasADi has them: `casadi_arm.py FILE.urdf AXES OUT.c`.
+"""The equations of motion of an arm as CasADi has them: `casadi_arm.py FILE.urdf AXES OUT.c OUT.arm`.
 
 Each link in its own axes, with numbers for all constants, so that CasADi leaves out what is zero and
 shares what is common:
@@ -11,7 +11,8 @@ shares what is common:
   (Carpentier and Mansard, 2018).
 
 A function is given cosines and sines of the angles, in pairs; with `_angles` it is given angles. All
-values are held against Pinocchio's before the C file is written. Prints the operations of each.
+values are held against Pinocchio's before the C file is written. Prints the operations of each. The
+last file has the numbers of the arm, for `pinocchio.cpp`.
 """
 
 import sys
@@ -226,6 +227,17 @@ def verify(model, made):
                 assert error < 1e-9 * size, (name, error, size)
 
 
+def write(model, path):
+    """The numbers of the arm, a line for each joint and its link."""
+    with open(path, "w") as file:
+        for joint, link in enumerate(Arm(model).links, start=1):
+            place, inertia = model.jointPlacements[joint], model.inertias[joint]
+            parts = [place.rotation, place.translation, link.direction, inertia.mass]
+            parts += [inertia.lever, inertia.inertia]
+            numbers = numpy.concatenate([numpy.ravel(part) for part in parts])
+            print(*[repr(float(number)) for number in numbers], file=file)
+
+
 def operations(function):
     """All instructions that compute: not inputs, outputs and constants."""
     still = (casadi.OP_INPUT, casadi.OP_OUTPUT, casadi.OP_CONST, casadi.OP_PARAMETER)
@@ -235,12 +247,13 @@ def operations(function):
 
 
 def main():
-    path, axes, out = sys.argv[1], int(sys.argv[2]), sys.argv[3]
+    path, axes, out, numbers = sys.argv[1], int(sys.argv[2]), sys.argv[3], sys.argv[4]
     whole = pinocchio.buildModelFromUrdf(path)
     held = list(range(axes + 1, whole.njoints))
     model = pinocchio.buildReducedModel(whole, held, pinocchio.neutral(whole))
     made = functions(Arm(model))
     verify(model, made)
+    write(model, numbers)
     generator = casadi.CodeGenerator(out, {"with_header": False})
     for name, function in made.items():
         generator.add(function)

@@ -44,6 +44,7 @@ pub trait AppliedForces<S: Scalar, M: Mechanism>: Sealed {
     const SCALES: bool = false;
 
     /// The interactions of a run with these forces.
+    #[doc(hidden)]
     type Tracked: Several<Tracked<S, M>>;
 
     /// Those without the limits of the description.
@@ -55,6 +56,7 @@ pub trait AppliedForces<S: Scalar, M: Mechanism>: Sealed {
     type List: Several<Tracked<S, M>>;
 
     /// The same with other forces.
+    #[doc(hidden)]
     type With<B: AppliedForces<S, M>>: AppliedForces<S, M>;
 
     /// Adds the forces at a time and a state.

@@ -72,8 +72,8 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + Sealed + 'static {
     type Coefficients<S: Scalar>: Array<S>;
     /// The factorised saddle system.
     type Factors<S: Scalar>: Copy + Debug;
-    /// What belongs to their own equations, where these are others than those in absolute
-    /// coordinates.
+    /// Their equations, where these are others than those in absolute coordinates.
+    #[doc(hidden)]
     type Own<S: Scalar>: Copy;
     /// How the rates of Euler parameters are read.
     #[doc(hidden)]

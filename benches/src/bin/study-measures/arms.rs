@@ -39,12 +39,14 @@ pub(crate) fn study(arguments: &Arms) -> Result<(), Box<dyn Error>> {
     });
     bar.finish_and_clear();
     let measured = measured?;
+    let busy = measured.busy.clone().map(Block::Text);
+    let table = Block::Table(arms::table(&measured));
     let document = Document {
         title: "The equations of motion of two arms".into(),
-        lead: measured.busy.iter().cloned().collect(),
+        lead: Vec::new(),
         sections: vec![Section {
             heading: "In the angles of the axes".into(),
-            blocks: vec![Block::Table(arms::table(&measured))],
+            blocks: busy.into_iter().chain([table]).collect(),
         }],
         colophon: vec![Target::CURRENT.to_string()],
     };

@@ -102,7 +102,10 @@ pub fn document(rows: &[Row], refused: &[Refused], beside: &Beside, target: &Tar
             ),
         ],
     };
-    document.lead.splice(0..0, busy(rows));
+    // The first that is read, on a terminal too.
+    if let Some(section) = document.sections.first_mut() {
+        section.blocks.splice(0..0, busy(rows).map(Block::Text));
+    }
     document
 }
 
