@@ -9,6 +9,7 @@ mod currents;
 mod described;
 mod descriptions;
 mod faults;
+mod freewheels;
 mod loops;
 mod shafts;
 mod steps;
