@@ -15,7 +15,6 @@ use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::efforts::refused;
 use crate::nonsmooth::law::pushes;
 use crate::nonsmooth::loads::BearingLoads;
-use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::sizes::{ROUND_OFF, part};
 use crate::nonsmooth::slipping::Slipping;
 use crate::nonsmooth::status::{Next, Tracked};
@@ -110,6 +109,7 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
                         Some(-S::one())
                     }
                 }
+                Next::Still if tracked.is_overrun() => Some(S::one()),
                 _ => None,
             }
         })
@@ -164,9 +164,7 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
         };
         let bounds = friction.bounds();
         // What was found at its capacity does not fall back by round-off.
-        let status = tracked.status;
-        let slips = status.is_found && status.before == InteractionMode::Sticking;
-        if slips {
+        if tracked.status.slips() {
             let rest = S::one() - part::<S>(SLIPS, ROUND_OFF);
             bounds.map(|bound| rest * bound)
         } else {

@@ -8,6 +8,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors, Place};
 use crate::nonsmooth::capacities::Capacities;
 use crate::nonsmooth::columns::{Columns, Setting};
+use crate::nonsmooth::law::Friction;
 use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
@@ -123,6 +124,7 @@ where
         } else {
             alone
         };
+        let work = tracked.work_of_zero(work, forces.quotient(columns.free[index]));
         let efforts = [effort, alone, work];
         setting.here(|scene| tracked.enter(mode, scene, efforts, &motions[index]));
     }
@@ -263,11 +265,10 @@ fn held_at_bounds<S: Real, M: Mechanism, const K: usize>(
     let mut places = solution.places;
     for (index, tracked) in list.iter().enumerate() {
         let status = tracked.status;
-        let slips = status.is_found && status.before == InteractionMode::Sticking;
         let is_still = status.next == Next::Still && sliding[index].is_none();
         let is_at_bound = places[index] != Place::Inside;
         let rests = solution.residuals[index].abs() <= round_off * roots[index];
-        if is_still && is_at_bound && rests && !slips {
+        if is_still && is_at_bound && rests && !status.slips() {
             held[index] = true;
             places[index] = Place::Inside;
         }
@@ -317,6 +318,27 @@ fn begins_to_slide<S: Real, const K: usize>(
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
+    fn is_one_way(&self) -> bool {
+        self.friction().is_some_and(|friction| friction.is_one_way)
+    }
+
+    /// A freewheel that turned out to bear nothing: it turns upwards, whatever round-off says.
+    pub(super) fn is_overrun(&self) -> bool {
+        let effort = self.status.exerted.effort;
+        let overrun = |friction: Friction<S>| friction.is_overrun(effort);
+        self.status.slips() && self.friction().is_some_and(overrun)
+    }
+
+    /// The efforts at work. The bound of a freewheel is zero: that is known beside the forces on
+    /// the bodies, by the square of the effort that does what they would do without constraints.
+    fn work_of_zero(&self, work: S, square: S) -> S {
+        if self.is_one_way() {
+            work.max(square.sqrt())
+        } else {
+            work
+        }
+    }
+
     /// Enters a mode with its effort, the one that would hold it alone, and the size of those that
     /// are at work.
     fn enter(

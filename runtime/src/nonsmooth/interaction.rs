@@ -412,6 +412,18 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         self.with_friction("released", |friction| friction.is_engaged = false)
     }
 
+    /// A freewheel: its effort is never negative. It bears what would turn the quantity downwards,
+    /// up to its capacity, and turns freely upwards. An infinite capacity stops a negative rate by
+    /// an impulse. Not for [`Interaction::friction_by_load`].
+    #[must_use]
+    pub fn one_way(mut self) -> Self {
+        match &mut self.law {
+            Law::Friction(friction) if friction.bearing.is_none() => friction.is_one_way = true,
+            _ => self.misplaced = Some("one_way"),
+        }
+        self
+    }
+
     fn with_friction(mut self, setting: &'static str, set: impl FnOnce(&mut Friction<S>)) -> Self {
         match &mut self.law {
             Law::Friction(friction) => set(friction),

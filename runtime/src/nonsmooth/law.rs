@@ -48,6 +48,8 @@ pub(crate) struct Friction<S> {
     /// The rate at which the one has fallen towards the other.
     pub(crate) stribeck: Option<S>,
     pub(crate) is_engaged: bool,
+    /// A freewheel: its efforts and impulses are never negative.
+    pub(crate) is_one_way: bool,
     /// What bears the load that it goes with.
     pub(crate) bearing: Option<Bearing<S>>,
 }
@@ -190,6 +192,7 @@ impl<S: Real> Friction<S> {
             stiction: None,
             stribeck: None,
             is_engaged: true,
+            is_one_way: false,
             bearing: None,
         }
     }
@@ -211,12 +214,26 @@ impl<S: Real> Friction<S> {
     /// The least and the largest effort while it sticks.
     pub(crate) fn bounds(&self) -> [S; 2] {
         let capacity = self.at_rest();
-        [-capacity, capacity]
+        [self.downwards(capacity), capacity]
     }
 
     /// The effort of sliding at a rate of a sign, which the rate may not have yet.
     pub(crate) fn effort(&self, sign: S, rate: S) -> S {
-        -sign * self.against(rate)
+        if sign > S::zero() {
+            self.downwards(self.against(rate))
+        } else {
+            self.against(rate)
+        }
+    }
+
+    /// An effort or an impulse of a size against a positive rate.
+    fn downwards(&self, size: S) -> S {
+        if self.is_one_way { S::zero() } else { -size }
+    }
+
+    /// Whether what slips at an end of its bounds, with about this effort, turns freely upwards.
+    pub(crate) fn is_overrun(&self, effort: S) -> bool {
+        self.is_one_way && effort < S::constant(0.5) * self.at_rest()
     }
 
     /// The size of the effort against sliding at a rate.
@@ -231,7 +248,18 @@ impl<S: Real> Friction<S> {
     /// The impulses by which it stops its quantity at once; `None` where it has efforts alone.
     pub(crate) fn impulses(&self) -> Option<[S; 2]> {
         let infinite = S::constant(f64::INFINITY);
-        (!self.capacity.is_finite()).then_some([-infinite, infinite])
+        (!self.capacity.is_finite()).then_some([self.downwards(infinite), infinite])
+    }
+
+    /// Whether it stops a rate at once.
+    pub(crate) fn stops(&self, rate: S) -> bool {
+        self.impulses().is_some_and(|[lower, upper]| {
+            if rate > S::zero() {
+                lower < S::zero()
+            } else {
+                upper > S::zero()
+            }
+        })
     }
 
     fn check(&self) -> Result<(), Refused<S>> {

@@ -210,6 +210,11 @@ impl<S: Real> Status<S> {
         }
     }
 
+    /// Whether it was found at the end of what it bears without sliding.
+    pub(super) fn slips(&self) -> bool {
+        self.is_found && self.before == InteractionMode::Sticking
+    }
+
     /// Engages or releases it.
     pub(crate) fn engage(&mut self, is_engaged: bool) {
         self.is_engaged = is_engaged;

@@ -54,7 +54,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// What comes after an instant: of a quantity on a limit or engaged, that rests there or goes
     /// on. Nothing of one that is held without a bound and does not rest.
     fn next(&self, one: &Struck<S>) -> Option<Next<S>> {
-        let stops = |friction: Friction<S>| friction.impulses().is_some();
+        let stops = |friction: Friction<S>| friction.stops(one.motion.rate);
         if self.friction().is_some_and(stops) && one.is_engaged && !one.rests {
             return None;
         }
@@ -166,7 +166,10 @@ where
     let before = all.each_ref().map(|one| one.before);
     let mut problem = BoxProblem::at_rest(columns.delassus, before);
     for (index, tracked) in list.iter_mut().enumerate() {
-        all[index].is_struck = tracked.collides(&all[index], &mut problem, index);
+        // Friction that is found has no rate, whether it stuck or slid: that takes no impulse.
+        let is_found = tracked.status.is_found && tracked.friction().is_some();
+        let collides = tracked.collides(&all[index], &mut problem, index);
+        all[index].is_struck = collides && (is_moved || !is_found);
     }
     let is_struck = all.iter().any(|one| one.is_struck);
     if is_struck {
@@ -347,7 +350,8 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         } else if let (true, Some(impulses)) =
             (one.is_engaged, law.friction().and_then(Friction::impulses))
         {
-            (impulses, motion.rate.abs() > motion.none())
+            let stops = law.friction().is_some_and(|one| one.stops(motion.rate));
+            (impulses, stops && motion.rate.abs() > motion.none())
         } else {
             return false;
         };

@@ -10,6 +10,7 @@ mod described;
 mod descriptions;
 mod factors;
 mod faults;
+mod freewheels;
 mod loops;
 mod ropes;
 mod shafts;
