@@ -127,7 +127,7 @@ fn rocks<C: Coordinates<Falling>>(rate: f64, bound: f64) {
                     && impact.rates[0] < 0.0
                     && sample.mode(foot) == Ok(InteractionMode::AtLower)
                 {
-                    lost = impact.lost_energy + lost;
+                    lost += impact.lost_energy;
                     impacts += 1;
                 }
             }
