@@ -213,7 +213,11 @@ impl<S: Real> Friction<S> {
 
     /// The least and the largest effort while it sticks.
     pub(crate) fn bounds(&self) -> [S; 2] {
-        let capacity = self.at_rest();
+        self.between(self.at_rest())
+    }
+
+    /// The least and the largest effort of a capacity that is known otherwise, as by a load.
+    pub(crate) fn between(&self, capacity: S) -> [S; 2] {
         [self.downwards(capacity), capacity]
     }
 

@@ -161,11 +161,12 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             (InteractionMode::AtLower, _) => effort,
             (InteractionMode::AtUpper, _) => -effort,
             (InteractionMode::Sticking, Law::Friction(friction)) => {
-                if friction.at_rest().is_finite() {
-                    (effort + capacity).min(capacity - effort)
+                let [lower, upper] = if friction.at_rest().is_finite() {
+                    friction.between(capacity)
                 } else {
-                    never
-                }
+                    friction.bounds()
+                };
+                (effort - lower).min(upper - effort)
             }
             (mode, _) => match mode.sliding::<S>() {
                 Some(sign) => sign * quantity.rate(scene),
