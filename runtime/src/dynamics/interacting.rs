@@ -7,6 +7,7 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::checked::check_all;
 use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
@@ -55,9 +56,7 @@ where
         if P::Forces::INTERACTS {
             let parameters = *self.parameters();
             self.forces.renew(&parameters);
-            for tracked in self.tracked() {
-                tracked.interaction.check()?;
-            }
+            check_all(self.tracked())?;
         }
         Ok(())
     }

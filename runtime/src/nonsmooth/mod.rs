@@ -25,7 +25,7 @@
 pub(crate) mod bearing;
 mod box_problem;
 mod capacities;
-mod checked;
+pub(crate) mod checked;
 mod choice;
 pub(crate) mod columns;
 pub(crate) mod described;

@@ -182,7 +182,7 @@ where
         for (tracked, one) in list.iter().zip(&all) {
             tracked.refuse_to_go_on(setting, one)?;
         }
-        report(setting, list, &all);
+        report(setting, list, &all, &columns.delassus);
     }
     let hops = hops(list, &all, &columns.delassus, setting.saddle.time);
     for (index, tracked) in list.iter().enumerate() {
@@ -392,11 +392,12 @@ impl<S: Real> Status<S> {
     }
 }
 
-/// Leaves the impulses in the statuses.
+/// Leaves the impulses in the statuses, but those that are round-off of what rests meanwhile.
 fn report<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
     list: &mut [Tracked<S, M>; K],
     all: &[Struck<S>; K],
+    matrix: &[[S; K]; K],
 ) where
     S: Real,
     M: Mechanism,
@@ -408,8 +409,9 @@ fn report<S, M, F, C, const K: usize>(
     for one in all {
         lost = lost - half * one.impulse * (one.before + one.motion.rate);
     }
-    for (tracked, one) in list.iter_mut().zip(all) {
-        if one.impulse != S::zero() {
+    for (index, (tracked, one)) in list.iter_mut().zip(all).enumerate() {
+        let is_felt = (matrix[index][index] * one.impulse).abs() > one.motion.none();
+        if is_felt {
             let impact = Impact {
                 time: setting.saddle.time,
                 impulse: one.impulse,

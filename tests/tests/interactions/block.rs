@@ -1,5 +1,6 @@
 //! A block with dry friction.
 
+use holonom::error::StartFault;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::{InteractionHandle, InteractionMode};
@@ -209,4 +210,28 @@ fn friction_without_a_capacity_does_not_change_its_mode_without_end() {
             })
             .unwrap_or_else(|error| panic!("{push} {speed}: {error}"));
     }
+}
+
+#[test]
+fn two_frictions_of_which_one_has_a_stiction_are_refused() {
+    let slide = Block::HANDLES.slide.displacement();
+    let block = pushed(1.0);
+    let fault = |frictions: [Interaction<f64, Block>; 2]| {
+        let run = block
+            .simulation(StandardLagrange, DormandPrince::default())
+            .interactions(frictions);
+        run.run(0.0..=0.1, every(0.1), |_| ())
+            .err()
+            .map(|error| error.fault)
+    };
+    let (friction, brake) = (
+        Interaction::friction(slide, 0.4),
+        Interaction::brake(slide, 1.0),
+    );
+    assert_eq!(fault([friction, brake]), None);
+    let refused = fault([friction, brake.stiction(2.0)]);
+    let wanted = Fault::Start(StartFault::StictionTwice { joint: "slide" });
+    assert_eq!(refused, Some(wanted));
+    let told = "there are two frictions on `slide`, one of them with a stiction, and which of them breaks away first is not determined: one friction with the sums of both is accepted";
+    assert_eq!(wanted.to_string(), told);
 }

@@ -3,16 +3,16 @@
 use crate::error::Fault;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::checked::check_all;
 use crate::nonsmooth::status::Tracked;
 use crate::run::driver::Driver;
 
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Begins all interactions anew, once their settings are accepted.
     pub(crate) fn begin_interactions(&mut self) -> Result<(), Fault> {
-        for tracked in self.march.equations_mut().interactions_mut() {
-            tracked.interaction.check()?;
-            tracked.begin();
-        }
+        let list = self.march.equations_mut().interactions_mut();
+        check_all(list)?;
+        list.iter_mut().for_each(Tracked::begin);
         Ok(())
     }
 

@@ -8,6 +8,7 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::turns;
+use crate::nonsmooth::checked::check_all;
 use crate::nonsmooth::handle::{InteractionHandle, effort_of, engage, named};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::status::Impact;
@@ -81,9 +82,7 @@ where
     /// Accepts the settings, once.
     fn begin_modes(&mut self) -> Result<(), Fault> {
         if !self.has_begun {
-            for tracked in self.dynamics.tracked() {
-                tracked.interaction.check()?;
-            }
+            check_all(self.dynamics.tracked())?;
             self.has_begun = true;
         }
         Ok(())
