@@ -60,12 +60,6 @@ pub enum StartFault {
         /// Its value.
         value: f64,
     },
-    /// Two frictions along one quantity, of which one has a stiction: which of them breaks away
-    /// first is not determined.
-    StictionTwice {
-        /// The field of the joint or the point.
-        joint: &'static str,
-    },
     /// A setting that this kind of [`Interaction`](crate::run::Interaction) does not have.
     MisplacedSetting {
         /// The field of the joint or the point.
@@ -183,10 +177,6 @@ impl fmt::Display for StartFault {
                 "the {setting} of the interaction on `{joint}` is {}: {}",
                 Given(value),
                 rule(setting)
-            ),
-            Self::StictionTwice { joint } => write!(
-                f,
-                "there are two frictions on `{joint}`, one of them with a stiction, and which of them breaks away first is not determined: one friction with the sums of both is accepted"
             ),
             Self::MisplacedSetting { joint, setting } => write!(
                 f,

@@ -35,6 +35,9 @@ pub(super) struct Capacities<'a, S: Real, M: Mechanism, const K: usize> {
     pub(super) list: &'a [Tracked<S, M>; K],
     pub(super) rates: [S; K],
     pub(super) loads: Option<&'a BearingLoads<S, K>>,
+    /// What was found at its capacity, while others hold its quantity as well. It stays there: how
+    /// they share a load is known to the fourth root of `EPSILON`, by the floor on the diagonal.
+    pub(super) shares: [bool; K],
 }
 
 /// What is held, and what slides by its load.
@@ -163,6 +166,11 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
             return [S::zero(); 2];
         };
         let bounds = friction.bounds();
+        if self.shares[index] {
+            let [lower, upper] = bounds;
+            let is_upper = tracked.status.exerted.effort > S::zero();
+            return [if is_upper { upper } else { lower }; 2];
+        }
         // What was found at its capacity does not fall back by round-off.
         if tracked.status.slips() {
             let rest = S::one() - part::<S>(SLIPS, ROUND_OFF);
@@ -182,6 +190,21 @@ impl<S: Real, M: Mechanism, const K: usize> Capacities<'_, S, M, K> {
     /// The solution of a problem within the bounds that belong to it, which are left in the
     /// problem.
     pub(super) fn solved<F: Formulation<S>, C: Coordinates<M>>(
+        &self,
+        setting: &Setting<'_, S, M, F, C>,
+        problem: &mut BoxProblem<S, K>,
+        sliding: &[Option<S>; K],
+    ) -> Result<BoxSolution<S, K>, Fault> {
+        let mut solution = self.within(setting, problem, sliding)?;
+        for (index, place) in solution.places.iter_mut().enumerate() {
+            if self.shares[index] && solution.efforts[index] > S::zero() {
+                *place = Place::Upper;
+            }
+        }
+        Ok(solution)
+    }
+
+    fn within<F: Formulation<S>, C: Coordinates<M>>(
         &self,
         setting: &Setting<'_, S, M, F, C>,
         problem: &mut BoxProblem<S, K>,

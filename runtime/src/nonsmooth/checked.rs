@@ -95,30 +95,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     }
 }
 
-/// Refuses settings of a list that are not acceptable, alone or beside each other.
+/// Refuses settings of a list that are not acceptable.
 pub(crate) fn check_all<S: Real, M: Mechanism>(list: &[Tracked<S, M>]) -> Result<(), Fault> {
-    for (place, tracked) in list.iter().enumerate() {
-        let one = &tracked.interaction;
-        one.check()?;
-        let before = list.iter().take(place);
-        if before
-            .map(|other| &other.interaction)
-            .any(|other| other.breaks_away_beside(one))
-        {
-            return Err(Fault::Start(StartFault::StictionTwice {
-                joint: one.name(),
-            }));
-        }
-    }
-    Ok(())
-}
-
-impl<S: Real, M: Mechanism> Interaction<S, M> {
-    /// Whether both are frictions along one quantity, and one of them is another at rest.
-    fn breaks_away_beside(&self, other: &Self) -> bool {
-        let has_stiction = |friction: &Friction<S>| friction.at_rest() != friction.capacity;
-        let frictions = self.law.friction().zip(other.law.friction());
-        frictions.is_some_and(|(one, other)| has_stiction(one) || has_stiction(other))
-            && self.quantity == other.quantity
-    }
+    list.iter()
+        .try_for_each(|tracked| tracked.interaction.check())
 }

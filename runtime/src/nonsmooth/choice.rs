@@ -60,10 +60,15 @@ where
     } else {
         None
     };
+    let shares = core::array::from_fn(|index| {
+        let others = core::array::from_fn(|other| other != index && chosen[other]);
+        list[index].status.slips() && is_blocked(&columns.delassus, &others, index)
+    });
     let capacities = Capacities {
         list: &*list,
         rates: motions.each_ref().map(|motion| motion.rate),
         loads: loads.as_ref(),
+        shares,
     };
     // The sign of the rate at which friction slides, or begins to.
     let forces = setting.here(strength_of_forces);
@@ -86,6 +91,8 @@ where
         solution = capacities.solved(setting, &mut problem, &sliding)?;
     }
     let strength = strength_of(&problem, &solution, &roots);
+    let at_work = (strength, &roots);
+    let saturated = saturated(&capacities, &problem, &solution, at_work, &sliding);
     let sizes = loads.as_ref().map(|loads| loads.sizes(&solution.efforts));
     for (index, tracked) in list.iter_mut().enumerate() {
         tracked.status.exerted.capacity = tracked.capacity(sizes.map(|sizes| sizes[index]));
@@ -110,7 +117,8 @@ where
         // A limit that bears nothing is left.
         let bears = effort.abs() > part::<S>(AT_BOUND, ROUND_OFF) * alone;
         let is_inside = solution.places[index] == Place::Inside && bears;
-        let mode = match (tracked.status.next, sliding[index]) {
+        tracked.status.is_saturated = saturated[index].is_some();
+        let mode = match (tracked.status.next, sliding[index].or(saturated[index])) {
             (Next::On(sign), _) if is_inside && sign > S::zero() => InteractionMode::AtLower,
             (Next::On(_), _) if is_inside => InteractionMode::AtUpper,
             (_, Some(sign)) if sign > S::zero() => InteractionMode::SlidingUp,
@@ -143,6 +151,7 @@ fn beginning<S: Real, M: Mechanism, const K: usize>(
 ) -> [Option<(S, S)>; K] {
     let (list, keeps_shares) = (capacities.list, capacities.loads.is_some());
     let can_be_held = held_at_bounds(list, problem, solution, at_work, sliding, keeps_shares);
+    let holds = solution.places.map(|place| place == Place::Inside);
     let mut beginning = [None; K];
     for (index, tracked) in list.iter().enumerate() {
         let is_friction = tracked.friction().is_some();
@@ -157,9 +166,53 @@ fn beginning<S: Real, M: Mechanism, const K: usize>(
             S::zero()
         };
         let sign = begins_to_slide(problem.upper[index], solution, at);
+        let sign = sign.filter(|_| !is_blocked(&problem.matrix, &holds, index));
         beginning[index] = sign.map(|sign| (sign, acceleration));
     }
     beginning
+}
+
+/// The friction at rest that is at its capacity and does not slide, because what is held blocks it:
+/// the sign of the rate that it would have.
+fn saturated<S: Real, M: Mechanism, const K: usize>(
+    capacities: &Capacities<'_, S, M, K>,
+    problem: &BoxProblem<S, K>,
+    solution: &BoxSolution<S, K>,
+    at_work: (S, &[S; K]),
+    sliding: &[Option<S>; K],
+) -> [Option<S>; K] {
+    let (list, keeps_shares) = (capacities.list, capacities.loads.is_some());
+    let can_be_held = held_at_bounds(list, problem, solution, at_work, sliding, keeps_shares);
+    let holds = solution.places.map(|place| place == Place::Inside);
+    core::array::from_fn(|index| {
+        let tracked = &list[index];
+        let is_still = (tracked.status.next, sliding[index]) == (Next::Still, None);
+        let moves = problem.matrix[index][index] > S::zero();
+        let is_one = tracked.friction().is_some() && is_still && moves && !can_be_held[index];
+        let sign = match solution.places[index] {
+            Place::Lower => Some(S::one()),
+            Place::Upper => Some(-S::one()),
+            Place::Inside => None,
+        };
+        sign.filter(|_| is_one && is_blocked(&problem.matrix, &holds, index))
+    })
+}
+
+/// Whether what holds leaves a quantity nothing of its compliance.
+fn is_blocked<S: Real, const K: usize>(
+    matrix: &[[S; K]; K],
+    holds: &[bool; K],
+    index: usize,
+) -> bool {
+    if !holds.contains(&true) {
+        return false;
+    }
+    let column = matrix.each_ref().map(|row| row[index]);
+    let others = Factors::of(matrix, holds).solve(&column);
+    let diagonal = matrix[index][index];
+    let terms = matrix[index].iter().zip(&others);
+    let rest = terms.fold(diagonal, |rest, (&w, &x)| (-w).fused(x, rest));
+    rest <= part::<S>(BLOCKED, OF_BLOCKED) * diagonal
 }
 
 /// Lets friction slide; whether an effort has changed by that. Of those whose stiction is more than
@@ -207,15 +260,7 @@ fn mark_blocked<S: Real, M: Mechanism, const K: usize>(
     for (index, tracked) in list.iter_mut().enumerate() {
         let status = &mut tracked.status;
         let is_still = status.next == Next::Still && status.mode.sliding::<S>().is_some();
-        let mut rests = false;
-        if is_still && holds.contains(&true) {
-            let column = matrix.each_ref().map(|row| row[index]);
-            let others = Factors::of(matrix, &holds).solve(&column);
-            let diagonal = matrix[index][index];
-            let terms = matrix[index].iter().zip(&others);
-            let rest = terms.fold(diagonal, |rest, (&w, &x)| (-w).fused(x, rest));
-            rests = rest <= part::<S>(BLOCKED, OF_BLOCKED) * diagonal;
-        }
+        let rests = is_still && is_blocked(matrix, &holds, index);
         status.rests = rests;
     }
 }

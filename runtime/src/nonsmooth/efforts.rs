@@ -40,6 +40,10 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     fn effort_of_sliding(&self, scene: &Scene<'_, S, M>) -> Option<S> {
         let sign = self.mode().sliding::<S>()?;
         let friction = self.friction()?;
+        if self.status.is_saturated {
+            let [lower, upper] = friction.bounds();
+            return Some(if sign > S::zero() { lower } else { upper });
+        }
         Some(friction.effort(sign, self.interaction.quantity.rate(scene)))
     }
 

@@ -40,6 +40,7 @@ impl<S: Real> Status<S> {
         memory.flag(&mut self.is_asked);
         memory.flag(&mut self.is_found);
         memory.flag(&mut self.rests);
+        memory.flag(&mut self.is_saturated);
         let numbers = [
             &mut self.held,
             &mut self.exerted.effort,

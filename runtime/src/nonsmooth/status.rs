@@ -65,8 +65,10 @@ pub(crate) struct Status<S> {
     pub(crate) since: S,
     /// The rate that it kept from arising until then: what is held is known to its round-off.
     pub(crate) kept_from: S,
-    /// Friction at its capacity that does not move, for a limit bears the rest.
+    /// Friction at its capacity that does not move, for something else bears the rest.
     pub(crate) rests: bool,
+    /// The same, with its capacity at rest: it has not begun to slide.
+    pub(crate) is_saturated: bool,
     /// The last reading of the condition.
     pub(crate) reading: S,
     /// It has left its zero.
@@ -168,6 +170,8 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
                 };
                 (effort - lower).min(upper - effort)
             }
+            // It ends with the mode of what bears the rest.
+            _ if self.status.is_saturated => never,
             (mode, _) => match mode.sliding::<S>() {
                 Some(sign) => sign * quantity.rate(scene),
                 None => never,
@@ -198,6 +202,7 @@ impl<S: Real> Status<S> {
             since: S::zero(),
             kept_from: S::zero(),
             rests: false,
+            is_saturated: false,
             reading: S::zero(),
             has_left: true,
             band: S::zero(),

@@ -1,6 +1,5 @@
 //! A block with dry friction.
 
-use holonom::error::StartFault;
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::prelude::*;
 use holonom::run::{InteractionHandle, InteractionMode};
@@ -212,26 +211,64 @@ fn friction_without_a_capacity_does_not_change_its_mode_without_end() {
     }
 }
 
+/// Two frictions of one slide under a push, whose capacities fade by `1 - t / 10`.
+fn fades<C: Coordinates<Block>>(capacities: [f64; 2], stiction: f64) {
+    let push = 3.0;
+    let block = pushed(push);
+    let slide = Block::HANDLES.slide;
+    let make = |capacity: f64| Interaction::friction(slide.displacement(), capacity);
+    let frictions = capacities.map(|capacity| make(capacity).stiction(stiction * capacity));
+    let [first, second] = Interaction::handles(&frictions);
+    let fade = |view: &View<'_, f64, Block>, _: &_| 1.0 - 0.1 * view.time();
+    let sum = capacities[0] + capacities[1];
+    let start = 10.0 * (1.0 - push / (stiction * sum));
+    let told = format!("{capacities:?}, {stiction}");
+    Simulation::new(&block, StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .interactions(frictions)
+        .capacity_factor(first, fade)
+        .capacity_factor(second, fade)
+        .run(0.0..=9.0, every(0.1), |sample| -> Result<(), Fault> {
+            let time = sample.time();
+            let wanted = if time > start {
+                let push = (push - sum) * (time - start);
+                (push + 0.05 * sum * (time * time - start * start)) / MASS
+            } else {
+                let efforts = sample.effort(first)? + sample.effort(second)?;
+                assert!((efforts + push).abs() < 1e-9, "{told}: {efforts}");
+                for friction in [first, second] {
+                    let mode = sample.mode(friction)?;
+                    let is_near = (time - start).abs() < 1e-9;
+                    assert!(
+                        is_near || mode == InteractionMode::Sticking,
+                        "{told}: {mode:?}"
+                    );
+                }
+                0.0
+            };
+            let rate = sample.displacement_rate(slide);
+            assert!(
+                (rate - wanted).abs() < 1e-8,
+                "{told} at {time}: {rate} for {wanted}"
+            );
+            Ok(())
+        })
+        .unwrap_or_else(|error| panic!("{told}: {error}"));
+}
+
 #[test]
-fn two_frictions_of_which_one_has_a_stiction_are_refused() {
-    let slide = Block::HANDLES.slide.displacement();
-    let block = pushed(1.0);
-    let fault = |frictions: [Interaction<f64, Block>; 2]| {
-        let run = block
-            .simulation(StandardLagrange, DormandPrince::default())
-            .interactions(frictions);
-        run.run(0.0..=0.1, every(0.1), |_| ())
-            .err()
-            .map(|error| error.fault)
-    };
-    let (friction, brake) = (
-        Interaction::friction(slide, 0.4),
-        Interaction::brake(slide, 1.0),
-    );
-    assert_eq!(fault([friction, brake]), None);
-    let refused = fault([friction, brake.stiction(2.0)]);
-    let wanted = Fault::Start(StartFault::StictionTwice { joint: "slide" });
-    assert_eq!(refused, Some(wanted));
-    let told = "there are two frictions on `slide`, one of them with a stiction, and which of them breaks away first is not determined: one friction with the sums of both is accepted";
-    assert_eq!(wanted.to_string(), told);
+fn two_frictions_of_one_slide_break_away_together() {
+    let both = [
+        [3.0, 3.0],
+        [4.0, 2.0],
+        [1.0, 5.0],
+        [6.0, 0.0],
+        [3.0, 3.0001],
+    ];
+    for capacities in both {
+        for stiction in [1.0, 1.2] {
+            fades::<Relative>(capacities, stiction);
+            fades::<Absolute>(capacities, stiction);
+        }
+    }
 }
