@@ -193,7 +193,7 @@ fn arrays_are_arrays_in_generated_code() {
     for part in [
         "pub links : [:: holonom :: BodyHandle < Chain > ; 5usize]",
         "pub pins : [:: holonom :: JointHandle < Chain , Revolute > ; 5usize]",
-        "pub fn new (lengths : [f64 ; 5usize])",
+        "pub fn new (lengths : [:: core :: primitive :: f64 ; 5usize])",
         "thrusts : [0.0 ; 2usize]",
         "pub thrusts : [__S ; 2usize]",
         "(5 , \"thrusts[0]\" , __inputs . thrusts [0])",

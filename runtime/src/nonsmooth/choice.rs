@@ -118,15 +118,7 @@ where
         let bears = effort.abs() > part::<S>(AT_BOUND, ROUND_OFF) * alone;
         let is_inside = solution.places[index] == Place::Inside && bears;
         tracked.status.is_saturated = saturated[index].is_some();
-        let mode = match (tracked.status.next, sliding[index].or(saturated[index])) {
-            (Next::On(sign), _) if is_inside && sign > S::zero() => InteractionMode::AtLower,
-            (Next::On(_), _) if is_inside => InteractionMode::AtUpper,
-            (_, Some(sign)) if sign > S::zero() => InteractionMode::SlidingUp,
-            (_, Some(_)) => InteractionMode::SlidingDown,
-            (Next::Still, None) => InteractionMode::Sticking,
-            _ if tracked.friction().is_some() => InteractionMode::Released,
-            _ => InteractionMode::Free,
-        };
+        let mode = tracked.mode_after(is_inside, sliding[index].or(saturated[index]));
         let work = if roots[index] > S::zero() {
             strength.quotient(roots[index])
         } else {
@@ -363,6 +355,20 @@ fn begins_to_slide<S: Real, const K: usize>(
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
+    /// The mode that follows, where a limit bears something or not, and friction slides at a rate
+    /// of a sign or not.
+    fn mode_after(&self, is_inside: bool, sliding: Option<S>) -> InteractionMode {
+        match (self.status.next, sliding) {
+            (Next::On(sign), _) if is_inside && sign > S::zero() => InteractionMode::AtLower,
+            (Next::On(_), _) if is_inside => InteractionMode::AtUpper,
+            (_, Some(sign)) if sign > S::zero() => InteractionMode::SlidingUp,
+            (_, Some(_)) => InteractionMode::SlidingDown,
+            (Next::Still, None) => InteractionMode::Sticking,
+            _ if self.friction().is_some() => InteractionMode::Released,
+            _ => InteractionMode::Free,
+        }
+    }
+
     fn is_one_way(&self) -> bool {
         self.friction().is_some_and(|friction| friction.is_one_way)
     }

@@ -233,8 +233,13 @@ impl<S: Real> Status<S> {
         self.is_found = false;
         self.is_asked = false;
         self.has_left = reading > two * floor;
+        let band = if self.has_left {
+            floor
+        } else {
+            floor.max(two * reading.abs())
+        };
         // A reading of exactly zero, of what bears nothing, is at zero.
-        self.band = floor.max(two * reading.abs()).max(S::smallest());
+        self.band = band.max(S::smallest());
     }
 
     /// What is held is brought back at a time: without its effort it would have got a rate.
@@ -275,10 +280,7 @@ impl<S: Real> Status<S> {
     /// Hands over on which side of its zero the condition is.
     pub(super) fn remember_side(&mut self, memory: &mut Memory<'_, S>) {
         memory.flag(&mut self.has_left);
-        // It is of no account otherwise, and may be infinite.
-        if !self.has_left {
-            memory.number(&mut self.band);
-        }
+        memory.number(&mut self.band);
     }
 
     /// Goes on with the last reading, by which the mode does not end.
