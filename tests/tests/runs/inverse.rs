@@ -49,7 +49,7 @@ fn laws_by_inverse_functions_keep_the_energy() {
             let energy = view.kinetic_energy() + potential(steep, angle);
             assert!((energy - 0.1).abs() < 1e-9, "{energy} at {angle}");
         };
-        let simulation = wound.simulation(StandardLagrange, tight.clone());
+        let simulation = wound.simulation(StandardLagrange, tight);
         simulation
             .run(0.0..=3.0, every(0.05), |sample| energy(sample))
             .expect("regular");
