@@ -127,10 +127,7 @@ pub(crate) fn assembled_holding<S: Real, M: Mechanism, F: Fn(usize) -> bool>(
     }
     // What was not set goes along from where the branch is known; where all was set, or nothing,
     // the state itself is the guess.
-    let start = match set.is_part() {
-        true => set.start(),
-        false => &given,
-    };
+    let start = if set.is_part() { set.start() } else { &given };
     let mut start = with_unit_orientations::<S, M>(start);
     M::rewrap(constants, &mut start);
     let start = righted::<S, M>(constants, &start, from);

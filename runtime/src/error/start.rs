@@ -127,7 +127,7 @@ const NOT_VERIFIED: &str = "a run with handlers, controllers, checkpoints or a t
 const NOT_LED: &str = "a run that is led by `begin()` is not verified, keeps no checkpoints and records no trajectory; `run(..)` does so, with an observer";
 
 const PLACES: &str = "`restitution` and `rest_below` are of limits, `radius` of a point and a plane, of a hinge and of a screw with friction by load, `guide` \
-     of slides and hinges with friction by load, `collar` of such hinges, `stiction`, `stribeck`, `released`, `engage` and `release` of friction, brakes and clutches, `capacity_factor` of those whose capacity is finite";
+     of slides and hinges with friction by load, `collar` of such hinges, `stiction`, `stribeck`, `released`, `engage` and `release` of friction, brakes and clutches, `one_way` of those but friction by load, `capacity_factor` of those whose capacity is finite";
 
 const NO_INTERACTIONS: &str = "`GeneralizedAlpha` does not move a mechanism with limits or other interactions; every other method does, `RadauIIA` where the system is stiff, and `.without_limits()` leaves out the limits of the description";
 

@@ -75,7 +75,7 @@ impl<M, J, const N: usize> Joints<M> for [JointHandle<M, J>; N] {
 macro_rules! tuples {
     ($(($($name:ident),*))*) => {$(
         impl<M, $($name: Joints<M>),*> Joints<M> for ($($name,)*) {
-            #[expect(non_snake_case)]
+            #[expect(non_snake_case, reason = "each handle has the name of its type")]
             fn has_joint(&self, joint: usize) -> bool {
                 let ($($name,)*) = self;
                 false $(|| $name.has_joint(joint))*

@@ -184,7 +184,11 @@ where
         }
         report(setting, list, &all, &columns.delassus);
     }
-    let hops = hops(list, &all, &columns.delassus, setting.saddle.time);
+    let hops = if is_struck {
+        hops(list, &all, &columns.delassus, setting.saddle.time)
+    } else {
+        [false; K]
+    };
     for (index, tracked) in list.iter().enumerate() {
         let status = tracked.status;
         let was_at_rest = !is_struck && !is_moved && (status.mode.holds() || status.is_found);
@@ -207,12 +211,12 @@ where
     Ok(())
 }
 
-/// What an impulse elsewhere makes leave its limit no faster than what has no restitution, or by
-/// landings of nothing but round-off.
+/// Which quantities an impulse elsewhere throws off their limits, but so slowly that they rest: at
+/// less than the rate of an approach without restitution, or by landings that are round-off.
 ///
 /// Limits that throw each other off by turns do so in a geometric series, whose last flights end
-/// within the round-off of a gap. As of restitution, the rest of it is left out. Approaches of
-/// different quantities are compared by their energies.
+/// within the round-off of a gap: that would never end. Approaches of different quantities are
+/// compared by their energies.
 fn hops<S: Real, M: Mechanism, const K: usize>(
     list: &[Tracked<S, M>; K],
     all: &[Struck<S>; K],

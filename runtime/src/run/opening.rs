@@ -107,7 +107,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let mut next = until;
         let _ = self.list.each(&mut |happening| {
             let of_controller = happening.period().map(|period| period.next());
-            let of_handler = happening.times().and_then(|times| times.next());
+            let of_handler = happening.next_time().map(|(time, _)| time);
             let instants = of_controller.into_iter().chain(of_handler);
             next = instants
                 .filter(|&instant| !is_same(instant, until))

@@ -118,9 +118,6 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             if let Some(period) = happening.period() {
                 period.remember(memory);
             }
-            if let Some(mut times) = happening.times() {
-                times.remember(memory);
-            }
             happening.remember(memory);
             Ok(())
         });

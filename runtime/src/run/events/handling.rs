@@ -15,6 +15,7 @@ use crate::run::driver::Driver;
 use crate::run::events::context::Event;
 use crate::run::events::list::{Happening, Hybrid, Phase};
 use crate::run::events::sizes::{ahead, rate, round_off, shaken};
+use crate::run::events::times::is_due;
 use crate::run::sample::Sample;
 use crate::state::vector::{Array, StateParts, Vector as _};
 use crate::stepping::marching::Marching;
@@ -108,19 +109,20 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     pub(crate) fn take_found(&mut self, time: S) -> Result<bool, Fault> {
         let hybrid = &mut self.course.hybrid;
         let is_found = core::mem::take(&mut hybrid.is_found);
-        let (mut is_due, mut event) = (false, None);
+        let (mut is_time, mut event) = (false, None);
         self.list.each(&mut |happening| {
             let found = happening.watch().filter(|watch| watch.is_found());
             let found = found.filter(|_| is_found).map(|watch| watch.name());
-            let due = happening.times().and_then(|times| times.due(time));
-            is_due |= due.is_some();
+            let next = happening.next_time();
+            let due = next.and_then(|(next, name)| is_due(next, time).then_some(name));
+            is_time |= due.is_some();
             event = event.or(found).or(due);
             Ok(())
         })?;
-        if is_due {
+        if is_time {
             hybrid.event = event;
         }
-        Ok(is_found || is_due)
+        Ok(is_found || is_time)
     }
 
     /// The phases of an instant, in their order: impulses and modes of interactions, handlers of

@@ -11,7 +11,6 @@ use crate::mechanism::kernels::Mechanism;
 use crate::run::checkpoint::Checkpoint;
 use crate::run::events::changes::Changes;
 use crate::run::events::context::Event;
-use crate::run::events::times::Times;
 use crate::run::output::IntoFlow;
 use crate::run::past::Past;
 use crate::run::sample::Sample;
@@ -37,11 +36,11 @@ pub enum Phase<S> {
 /// Something that happens in a run.
 #[doc(hidden)]
 pub trait Happening<S: Real, M: Mechanism> {
-    /// Checks its setting at the start of a run, and forgets the run before.
+    /// Checks its setting at the start (s) of a run, and forgets the run before.
     ///
     /// # Errors
     /// Of a setting that is not acceptable.
-    fn begin(&mut self) -> Result<(), Fault> {
+    fn begin(&mut self, _start: S) -> Result<(), Fault> {
         Ok(())
     }
 
@@ -60,8 +59,8 @@ pub trait Happening<S: Real, M: Mechanism> {
         None
     }
 
-    /// The times of a handler.
-    fn times(&mut self) -> Option<Times<'_, S>> {
+    /// The next of the times (s) at which a handler is called, and its name.
+    fn next_time(&self) -> Option<(S, &'static str)> {
         None
     }
 
@@ -172,42 +171,6 @@ where
     }
 }
 
-/// A handler with its times, see [`Simulation::at`](crate::Simulation::at).
-#[derive(Clone, Debug)]
-pub struct Timed<T, K> {
-    pub(super) name: &'static str,
-    pub(super) times: T,
-    pub(super) over: usize,
-    pub(super) handler: K,
-}
-
-impl<S, M, T, K, R> Happening<S, M> for Timed<T, K>
-where
-    S: Real,
-    M: Mechanism,
-    T: AsRef<[S]>,
-    K: FnMut(&mut Event<'_, S, M>) -> R,
-    R: IntoFlow,
-    R::Failure: Into<Fault>,
-{
-    fn due(&mut self, time: S, phase: Phase<S>) -> Option<&'static str> {
-        let mut times = Happening::<S, M>::times(self)?;
-        (phase == Phase::Times).then(|| times.call(time))?
-    }
-
-    fn times(&mut self) -> Option<Times<'_, S>> {
-        Some(Times {
-            name: self.name,
-            times: self.times.as_ref(),
-            over: &mut self.over,
-        })
-    }
-
-    fn act(&mut self, event: &mut Event<'_, S, M>) -> Result<ControlFlow<()>, Fault> {
-        (self.handler)(event).into_flow().map_err(Into::into)
-    }
-}
-
 /// A controller with its period, see
 /// [`Simulation::every_period`](crate::Simulation::every_period).
 #[derive(Clone, Debug)]
@@ -290,16 +253,13 @@ impl<S: Real, M: Mechanism> Hybrid<S, M> {
     ) -> Result<Self, Fault> {
         let (mut watches, mut records, mut keeps) = (false, false, None);
         list.each(&mut |happening| {
-            happening.begin()?;
+            happening.begin(start)?;
             if let Some(steps) = happening.steps_to_keep() {
                 positive("steps between checkpoints", steps as f64)?;
                 keeps = Some(keeps.map_or(steps, |other| common(steps, other)));
             }
             watches |= happening.watch().is_some();
             records |= happening.records();
-            if let Some(mut times) = happening.times() {
-                times.begin(start)?;
-            }
             let Some(period) = happening.period() else {
                 return Ok(());
             };

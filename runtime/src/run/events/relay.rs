@@ -59,7 +59,7 @@ where
     R: IntoFlow,
     R::Failure: Into<Fault>,
 {
-    fn begin(&mut self) -> Result<(), Fault> {
+    fn begin(&mut self, _start: S) -> Result<(), Fault> {
         let [low, high] = self.thresholds.map(Real::to_f64);
         positive("upper less lower threshold of a relay", high - low)?;
         (self.is_high, self.has_begun) = (false, false);

@@ -11,8 +11,9 @@ use crate::mechanism::kernels::InputsOf;
 #[cfg(feature = "std")]
 use crate::run::checkpoint::{Checkpoint, keeper::Keeping};
 use crate::run::events::context::Event;
-use crate::run::events::list::{Controlled, Handled, Timed};
+use crate::run::events::list::{Controlled, Handled};
 use crate::run::events::relay::Relay;
+use crate::run::events::times::Timed;
 use crate::run::output::{IntoFlow, Reporting};
 use crate::run::report::RunResult;
 use crate::run::runs::Runs;
@@ -166,12 +167,7 @@ where
         K: FnMut(&mut Event<'_, P::Number, P::Mechanism>) -> R,
         R: Handling,
     {
-        self.and(Timed {
-            name,
-            times,
-            over: 0,
-            handler,
-        })
+        self.and(Timed::new(name, times, handler))
     }
 
     /// A relay with hysteresis, by two thresholds of a reading. It calls a handler with `true`
