@@ -41,5 +41,6 @@ pub use parameter::{ParameterError, ParameterFault};
 pub use quantity::Quantity;
 pub use reading::{AngleSet, ReadingFault};
 pub use run::{RunError, SimulationError};
+pub(crate) use start::OF_ITSELF;
 pub use start::StartFault;
 pub use step::{NotFinite, StepFault};

@@ -121,6 +121,9 @@ pub enum StartFault {
     },
 }
 
+/// The setting of a clutch whose two quantities are one.
+pub(crate) const OF_ITSELF: &str = "ratio of a quantity to itself";
+
 const NOT_VERIFIED: &str = "a run with handlers, controllers, checkpoints or a trajectory has no companion that `verified()` could compare it with, for closures cannot be called twice; \
      compare with a second run of another tolerance or step";
 
@@ -269,6 +272,8 @@ fn rule(setting: &str) -> &'static str {
             "a hinge or a screw with friction by load has a positive radius, by `.radius(..)`"
         }
         "guide" | "collar" => "it is a length, positive and finite",
+        "ratio" => "it is finite and not zero: what holds one quantity alone is a brake",
+        OF_ITSELF => "a clutch is between two quantities: what holds one alone is a brake",
         _ => "it is finite",
     }
 }

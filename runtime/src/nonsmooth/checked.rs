@@ -1,6 +1,6 @@
 //! What is refused of an interaction, by the name of its joint or point.
 
-use crate::error::{Fault, ModeFault, StartFault};
+use crate::error::{Fault, ModeFault, OF_ITSELF, StartFault};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::{Mechanism, have_equations};
 use crate::nonsmooth::bearing::Bearing;
@@ -85,10 +85,13 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
             if let Some(bearing) = &friction.bearing {
                 self.check_bearing(friction, bearing)?;
             }
-            if let Quantity::Difference(_, _, ratio) = self.quantity
-                && !ratio.is_finite()
-            {
-                return refuse("ratio", ratio);
+            if let Quantity::Difference(first, second, ratio) = self.quantity {
+                if first == second {
+                    return refuse(OF_ITSELF, ratio);
+                }
+                if !ratio.is_finite() || ratio == S::zero() {
+                    return refuse("ratio", ratio);
+                }
             }
         }
         Ok(())

@@ -36,6 +36,8 @@ fn settings_are_checked_at_the_start() {
     refused(friction(2.0).stiction(1.0), "stiction");
     refused(friction(2.0).stiction(3.0).stribeck(0.0), "stribeck");
     refused(friction(2.0).stribeck(1.0), "stribeck");
+    let clutch = |ratio| Interaction::clutch(rail, rail, ratio, 1.0);
+    refused(clutch(2.0), "ratio of a quantity to itself");
     let told = fault(friction(-1.0)).to_string();
     let wanted = "the capacity of the interaction on `rail` is -1: it is zero or more";
     assert_eq!(told, wanted);
