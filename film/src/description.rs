@@ -72,10 +72,17 @@ pub(crate) fn points<S: Real, M: Mechanism>(view: &View<'_, S, M>) -> Vec<Point>
     named.collect()
 }
 
-/// Shapes but holes.
+/// Meshes but holes, with their places in the report.
+pub(crate) fn meshes<M: Mechanism>()
+-> impl Iterator<Item = (usize, &'static holonom::mechanism::Shape)> {
+    let shapes = M::REPORT.shapes.iter().enumerate();
+    shapes.filter(|(_, shape)| shape.kind == ShapeKind::Mesh && !shape.is_hole)
+}
+
+/// Shapes but holes and meshes.
 pub(crate) fn shapes<S: Real, M: Mechanism>(view: &View<'_, S, M>) -> Vec<Shape> {
     let shapes = M::REPORT.shapes.iter().enumerate();
-    let solid = shapes.filter(|(_, shape)| !shape.is_hole);
+    let solid = shapes.filter(|(_, shape)| !shape.is_hole && shape.kind != ShapeKind::Mesh);
     let drawn = solid.map(|(index, shape)| Shape {
         body: shape.body,
         kind: match shape.kind {

@@ -85,8 +85,9 @@
 //! # }
 //! ```
 //!
-//! `Film::mesh` draws a body by a file of its own. STL, OBJ and Collada files are read. Meshes with
-//! too many triangles are simplified, so that a page of a robot stays below 2 MB.
+//! `Film::mesh` draws a body by a file of its own. A body that is described by a `mesh(..)` looks
+//! like it. STL, OBJ and Collada files are read. Meshes with too many triangles are simplified, so
+//! that a page of a robot stays below 2 MB.
 //!
 //! # Other files
 //!

@@ -44,6 +44,8 @@ pub struct Film<M> {
     traces: Vec<Trace>,
     readings: Vec<Values>,
     warnings: Vec<Remark>,
+    /// Meshes that are not drawn.
+    left_out: Vec<Remark>,
     mechanism: PhantomData<fn() -> M>,
 }
 
@@ -97,6 +99,7 @@ impl<M: Mechanism> Film<M> {
             traces: Vec::new(),
             readings: Vec::new(),
             warnings: Vec::new(),
+            left_out: Vec::new(),
             mechanism: PhantomData,
         }
     }
@@ -276,6 +279,7 @@ impl<M: Mechanism> Film<M> {
             })
             .collect();
         let readings = self.readings.iter().zip(&full);
+        let remarks = [&self.warnings[..], &self.left_out].concat();
         let page = Page {
             title: &self.title,
             bodies: &bodies,
@@ -305,7 +309,7 @@ impl<M: Mechanism> Film<M> {
                     values: Floats(values),
                 })
                 .collect(),
-            warnings: &self.warnings,
+            warnings: &remarks,
         };
         let mut data = String::new();
         page.write(&mut data);
@@ -392,5 +396,17 @@ impl<M: Mechanism> Film<M> {
         if self.shows_arrows {
             self.arrows = arrows::<M>();
         }
+        let left_out = self.described_meshes(view).into_iter();
+        let remark = |text| Remark { text, time: None };
+        self.left_out = left_out.map(remark).collect();
+    }
+
+    /// Says which meshes would be drawn.
+    #[cfg(not(feature = "meshes"))]
+    fn described_meshes<S: Real>(&self, _view: &View<'_, S, M>) -> Vec<String> {
+        let files = crate::description::meshes::<M>().filter_map(|(_, mesh)| mesh.file);
+        files
+            .map(|file| format!("{file}: needs the feature `meshes` of `holonom-film`"))
+            .collect()
     }
 }

@@ -9,8 +9,8 @@ mod simplify;
 
 use std::path::Path;
 
-use holonom::nalgebra::{Matrix4, UnitQuaternion};
-use holonom::{BodyHandle, Mechanism, MechanismExt, View};
+use holonom::nalgebra::{Matrix4, Quaternion, UnitQuaternion};
+use holonom::{BodyHandle, Mechanism, MechanismExt, Real, View};
 
 use self::part::Part;
 pub use self::robot::{Drawn, UrdfMeshes};
@@ -56,6 +56,36 @@ impl<M: Mechanism> Film<M> {
             ALONE,
         );
         Ok(())
+    }
+
+    /// Draws bodies that are described by meshes like these; what cannot be is returned, with the
+    /// reason.
+    pub(crate) fn described_meshes<S: Real>(&mut self, view: &View<'_, S, M>) -> Vec<String> {
+        let mut left_out = Vec::new();
+        for (index, shape) in crate::description::meshes::<M>() {
+            let file = Path::new(shape.file.unwrap_or_default());
+            let mut parts = match files::read(file) {
+                Ok(parts) => parts,
+                Err(reason) => {
+                    left_out.push(format!("{}: {reason}", file.display()));
+                    continue;
+                }
+            };
+            let [e0, e1, e2, e3] = shape.axes;
+            let turn = UnitQuaternion::new_normalize(Quaternion::new(e0, e1, e2, e3));
+            let scale = view.shape(index).map(Real::to_f64);
+            let on_body = Matrix4::new_translation(&shape.centre.into())
+                * turn.to_homogeneous()
+                * Matrix4::new_nonuniform_scaling(&scale.into());
+            for part in &mut parts {
+                part.transform(&on_body);
+            }
+            self.add_meshes(
+                parts.into_iter().map(|part| (Some(shape.body), part)),
+                ALONE,
+            );
+        }
+        left_out
     }
 
     /// Adds meshes, each on a body or on the ground, with so many triangles in all.

@@ -1,5 +1,6 @@
 //! Meshes of bodies: files that are written here, and where a page has them.
 
+mod described;
 mod files;
 mod fine;
 
@@ -79,7 +80,7 @@ fn shorts(value: &Value) -> Vec<u16> {
 }
 
 /// The meshes of a page, as the viewer reads them.
-fn meshes(film: &Film<RodPendulum>) -> Result<Vec<Shown>> {
+fn meshes<M: Mechanism>(film: &Film<M>) -> Result<Vec<Shown>> {
     let page = film.html()?;
     let data = page.split_once("<script type=\"application/json\" id=\"film\">");
     let data = data.and_then(|(_, behind)| behind.split_once("</script>"));

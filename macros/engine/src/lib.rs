@@ -5,6 +5,7 @@
 //!
 //! ```text
 //! syntax       tokens            -> what was written, with spans; every fault collected
+//! mesh         files of triangles -> what they enclose
 //! check        what was written  -> the model, or refusals, each a sentence at the user's token
 //! symbolic     the model         -> vectors that know their frame, an arena of scalars
 //! rank         the equations     -> by numbers, which of them follow from others
@@ -18,6 +19,7 @@ pub mod check;
 pub mod coordinates;
 pub mod diag;
 pub mod emit;
+pub mod mesh;
 pub mod model;
 pub mod passes;
 pub mod plan;
@@ -100,8 +102,11 @@ fn sent(tokens: &TokenStream, is_assembly: bool) -> TokenStream {
             if kinds::too_many(&syntax, paths.len()).is_some() {
                 paths.truncate(1);
             }
-            let mark = is_assembly.then(wire::assembly_mark);
-            return wire::call(&paths, &quote!(#mark #tokens));
+            if is_assembly {
+                let (mark, tokens) = (wire::assembly_mark(), syntax::files::placed(tokens.clone()));
+                return wire::call(&paths, &quote!(#mark #tokens));
+            }
+            return wire::call(&paths, tokens);
         }
         // Nobody can tell where the run-time crate is: say what can be said without it.
         if syntax.is_plain {

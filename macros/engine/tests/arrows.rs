@@ -7,11 +7,12 @@ use std::path::Path;
 use proc_macro2::{TokenStream, TokenTree};
 
 /// The modules of the engine, each behind those that it may use.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "model",
     "diag",
     "syntax",
     "wire",
+    "mesh",
     "check",
     "symbolic",
     "rank",
@@ -23,7 +24,10 @@ const ORDER: [&str; 12] = [
 ];
 /// Pairs that the order allows and that have nothing to do with each other: what is refused knows
 /// no algebra, and algebra no text.
-const APART: [(&str, &str); 9] = [
+const APART: [(&str, &str); 12] = [
+    ("mesh", "model"),
+    ("mesh", "diag"),
+    ("mesh", "syntax"),
     ("symbolic", "diag"),
     ("symbolic", "syntax"),
     ("symbolic", "check"),

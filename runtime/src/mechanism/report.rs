@@ -338,13 +338,16 @@ pub struct Shape {
     pub body: usize,
     /// What it is.
     pub kind: ShapeKind,
-    /// Its centre of mass from that of the body (m), in the user's body axes.
+    /// Its centre of mass, or the origin of a mesh's file, from the centre of mass of the body (m),
+    /// in the user's body axes.
     pub centre: [f64; 3],
     /// Euler parameters of the rotation from its axes to the user's body axes. Its length is along
     /// its x axis.
     pub axes: [f64; 4],
     /// Whether it is taken away: its density is negative.
     pub is_hole: bool,
+    /// The file of a mesh, by its whole path on the machine that compiled it.
+    pub file: Option<&'static str>,
 }
 
 /// What a [`Shape`] is. Its sizes (m) are those of [`crate::Mechanism::shape`].
@@ -362,6 +365,9 @@ pub enum ShapeKind {
     Block,
     /// Radius.
     Ball,
+    /// What a unit of its file is (m), along the axes x, y and z of the file; negative along an
+    /// axis across which a part mirrors it.
+    Mesh,
 }
 
 /// A block of the Jacobian `D`: the rows of one joint against the velocities of one body.

@@ -3,7 +3,7 @@
 use super::number::Numbers;
 use super::turning::Turn;
 use crate::model::inertia::{IDENTITY, compose, rotation};
-use crate::model::{Binding, Body, Number, ParameterKind, Shape};
+use crate::model::{Binding, Body, Number, ParameterKind, Shape, ShapeKind};
 
 /// A mirror, then a rotation, then a translation.
 #[derive(Clone, Debug)]
@@ -121,10 +121,13 @@ impl Placement {
         product.map(|row| numbers.linear(row, p, Number::ZERO))
     }
 
-    /// What a body looks like, in its axes. Every shape is symmetric to the plane across its z
-    /// axis.
+    /// What a body looks like, in its axes. Every shape but a mesh is symmetric to the plane across
+    /// its z axis.
     fn shape(&self, shape: &mut Shape) {
         let Some(axis) = self.mirror else { return };
+        if let (ShapeKind::Mesh, Number::Literal(scale)) = (shape.kind, &mut shape.sizes[2]) {
+            *scale = -*scale;
+        }
         shape.centre[axis] = -shape.centre[axis];
         // Mirrors across `axis` and across the shape's own z are a rotation.
         let turned = mirrored(shape.axes, Some(axis));
@@ -183,4 +186,45 @@ fn mirrored(p: [f64; 4], mirror: Option<usize>) -> [f64; 4] {
         }
     }
     p
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Number, Placement, Shape, ShapeKind, Turn, rotation};
+    use crate::model::inertia::IDENTITY;
+    use crate::model::number::literals;
+
+    /// A mesh of a mirrored part has its points where a mirror shows them.
+    #[test]
+    fn meshes_are_mirrored() {
+        let point = |shape: &Shape| {
+            let (a, scale) = (rotation(shape.axes), literals(&shape.sizes));
+            let scale = scale.expect("numbers");
+            let in_file = [0.3, -0.2, 0.7];
+            let along = |k: usize| -> f64 { (0..3).map(|l| a[k][l] * scale[l] * in_file[l]).sum() };
+            [0, 1, 2].map(|k| shape.centre[k] + along(k))
+        };
+        for axis in 0..3 {
+            let placement = Placement {
+                mirror: Some(axis),
+                rotation: Turn::Seen(IDENTITY),
+                at: [Number::ZERO; 3],
+            };
+            let mut shape = Shape {
+                kind: ShapeKind::Mesh,
+                sizes: [Number::Literal(2.0); 3],
+                centre: [0.1, 0.2, 0.3],
+                axes: [0.5, 0.5, -0.1, 0.7],
+                is_hole: false,
+                file: None,
+            };
+            let mut wanted = point(&shape);
+            wanted[axis] = -wanted[axis];
+            placement.shape(&mut shape);
+            let found = point(&shape);
+            for k in 0..3 {
+                assert!((found[k] - wanted[k]).abs() < 1e-14, "{found:?} {wanted:?}");
+            }
+        }
+    }
 }

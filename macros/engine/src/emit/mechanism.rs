@@ -10,7 +10,7 @@ use super::inputs::{Inputs, inputs_of, taken};
 use super::limits;
 use super::parameters;
 use super::parts::Frame;
-use super::report::report;
+use super::report::{report, watched};
 use super::solver::is_short;
 use super::splines;
 use super::straight_line::StraightLine;
@@ -71,6 +71,7 @@ impl Writer<'_> {
             report(model, kernels, facade),
             documentation(model, kernels),
         );
+        let watched = watched(model);
         let assertions = parameters::assertions(model, facade);
         let splines = splines::functions(model, facade);
         let sides = switches::functions(model, facade);
@@ -100,6 +101,7 @@ impl Writer<'_> {
 
                 #handles_type
                 #inputs_type
+                #watched
                 #assertions
                 #splines
                 #sides

@@ -1,5 +1,7 @@
 //! The report on a mechanism: names, sizes, counts.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -318,25 +320,39 @@ pub(super) fn state_infos(model: &Model, first: usize, facade: &TokenStream) -> 
     states.collect()
 }
 
+/// Lets the compiler watch the files of meshes.
+pub(super) fn watched(model: &Model) -> TokenStream {
+    let shapes = model.bodies.iter().flat_map(|body| &body.shapes);
+    let files: BTreeSet<&String> = shapes.filter_map(|shape| shape.file.as_ref()).collect();
+    let files = files.iter();
+    quote!(#( const _: &[::core::primitive::u8] = ::core::include_bytes!(#files); )*)
+}
+
 fn shape(body: usize, shape: &Shape, facade: &TokenStream) -> TokenStream {
     let Shape {
         kind,
         centre: [x, y, z],
         axes: [e0, e1, e2, e3],
         is_hole,
+        ref file,
         ..
     } = *shape;
+    let file = match file {
+        Some(file) => quote!(::core::option::Option::Some(#file)),
+        None => quote!(::core::option::Option::None),
+    };
     let kind = match kind {
         ShapeKind::Cylinder => quote!(Cylinder),
         ShapeKind::Tube => quote!(Tube),
         ShapeKind::Cone => quote!(Cone),
         ShapeKind::Block => quote!(Block),
         ShapeKind::Ball => quote!(Ball),
+        ShapeKind::Mesh => quote!(Mesh),
     };
     quote! {
         #facade::__private::Shape {
             body: #body, kind: #facade::__private::ShapeKind::#kind, centre: [#x, #y, #z],
-            axes: [#e0, #e1, #e2, #e3], is_hole: #is_hole,
+            axes: [#e0, #e1, #e2, #e3], is_hole: #is_hole, file: #file,
         }
     }
 }

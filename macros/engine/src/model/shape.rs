@@ -15,6 +15,8 @@ pub enum ShapeKind {
     Block,
     /// Radius.
     Ball,
+    /// A unit of its file along x, y, z; negative where it is mirrored.
+    Mesh,
 }
 
 /// A shape of a body.
@@ -24,10 +26,13 @@ pub struct Shape {
     pub kind: ShapeKind,
     /// Its sizes; zero where its kind has fewer than three.
     pub sizes: [Number; 3],
-    /// Its centre of mass from that of the body (m), in the user's axes.
+    /// Its centre of mass, or the origin of its file, from the centre of mass of the body (m), in
+    /// the user's axes.
     pub centre: [f64; 3],
     /// Euler parameters from its axes to the user's, its length along x.
     pub axes: [f64; 4],
     /// Whether it is taken away.
     pub is_hole: bool,
+    /// The whole path of the file of a mesh, as far as it is text.
+    pub file: Option<String>,
 }

@@ -4,6 +4,7 @@ pub mod array;
 mod attributes;
 pub mod depth;
 mod field;
+pub mod files;
 pub mod integer;
 pub mod joint;
 pub mod mechanism;

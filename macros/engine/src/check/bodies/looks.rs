@@ -2,9 +2,9 @@
 
 use syn::Expr;
 
+use super::lumps::Frame;
 use super::reader::Reader;
-use super::shape::{Axes, Formulas};
-use super::solid::Frame;
+use super::shape::{Axes, Written};
 use crate::model::number::literals;
 use crate::model::{Number, Shape};
 
@@ -28,12 +28,18 @@ impl Reader<'_, '_> {
         shapes.into_iter().collect()
     }
 
-    fn look(&mut self, shape: &Formulas<'_>, body: Option<Frame>) -> Option<Shape> {
+    fn look(&mut self, shape: &Written<'_>, body: Option<Frame>) -> Option<Shape> {
         self.at("shape");
-        let centre = shape.centre.each_ref().map(|x| self.written_number(x));
-        let axes = match (&shape.axes, body) {
-            (Axes::Body, Some(body)) => Some(body.axes),
-            _ => literals(&self.own_axes(shape)?),
+        let (centre, axes) = match shape {
+            Written::Mesh(mesh) => (mesh.frame.centre.map(Some), Some(mesh.frame.axes)),
+            Written::Formulas(formulas) => {
+                let centre = formulas.centre.each_ref().map(|x| self.written_number(x));
+                let axes = match (&formulas.axes, body) {
+                    (Axes::Body, Some(body)) => Some(body.axes),
+                    _ => literals(&self.own_axes(formulas)?),
+                };
+                (centre, axes)
+            }
         };
         match (body, centre, axes) {
             (Some(body), [Some(x), Some(y), Some(z)], Some(axes)) => {
@@ -42,7 +48,7 @@ impl Reader<'_, '_> {
             }
             _ => {
                 self.faults.at(
-                    shape.call,
+                    shape.call(),
                     "a shape beside `mass` and `inertia` is only drawn; its points, and `position` and \
                      `orientation` of the body, must be numbers that the macro can see",
                 );

@@ -62,3 +62,20 @@ pub(super) fn unit(v: [f64; 3]) -> [f64; 3] {
     let norm = norm(v);
     v.map(|x| x / norm)
 }
+
+/// Where a shape or a body is: its centre of mass (m, global), and Euler parameters from its axes
+/// to global axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    pub(super) centre: [f64; 3],
+    pub(super) axes: [f64; 4],
+}
+
+impl Frame {
+    /// With Euler parameters of length 1.
+    pub(super) fn unit(self) -> Self {
+        let norm = self.axes.iter().map(|e| e * e).sum::<f64>().sqrt();
+        let axes = self.axes.map(|e| e / norm);
+        Self { axes, ..self }
+    }
+}

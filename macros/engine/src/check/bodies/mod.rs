@@ -3,8 +3,8 @@
 //! - `inertia.rs`: moments and tensors; `rotation.rs`: orientations, as they are written;
 //!   `leading.rs`: those that lead an axis to a direction.
 //! - `shape.rs`: shapes as they are written; `volume.rs`: their formulas, which `formula.rs` puts
-//!   together as expressions; `solid.rs`: what follows for a body, of several by `lumps.rs`;
-//!   `looks.rs`: where nothing follows, because mass and inertia are given.
+//!   together as expressions; `mesh.rs`: shapes in files; `solid.rs`: what follows for a body, of
+//!   several by `lumps.rs`; `looks.rs`: where nothing follows, because mass and inertia are given.
 //! - `as_given.rs`: those that no body has.
 
 mod as_given;
@@ -13,6 +13,7 @@ mod inertia;
 mod leading;
 mod looks;
 mod lumps;
+mod mesh;
 mod reader;
 mod rotation;
 mod shape;
@@ -62,6 +63,8 @@ pub fn check(
         BodyKind::Particle => Some([Number::ZERO; 3]),
     };
     let free = pairs.flag("free", reader.faults);
+    let instead = "write `shape = mesh(file = \"part.stl\", scale = 0.001)`, with the m of a unit of the file";
+    pairs.refuse("mesh", instead, reader.faults);
     pairs.finish(reader.faults);
     let solid = solid?;
     Some(Body {

@@ -4,13 +4,15 @@ use quote::ToTokens;
 use syn::{Expr, ExprCall};
 
 use super::formula::{difference, length, sum, times};
+use super::mesh::{self, Mesh};
 use super::reader::Reader;
 use super::volume::{self, Volume};
 use crate::diag::{code, did_you_mean, list};
+use crate::syntax::files::MESH;
 use crate::syntax::ungroup;
 
 /// What shapes there are, and what they take.
-const SHAPES: [(&str, &[&str]); 8] = [
+const SHAPES: [(&str, &[&str]); 9] = [
     ("cylinder", &["radius", "from", "to"]),
     ("rod", &["radius", "from", "to"]),
     ("tube", &["outer", "inner", "from", "to"]),
@@ -19,10 +21,38 @@ const SHAPES: [(&str, &[&str]); 8] = [
     ("disc", &["radius", "thickness", "at", "axis"]),
     ("block", &["size", "at"]),
     ("ball", &["radius", "at"]),
+    (MESH, &mesh::KEYS),
 ];
 
-/// May be left out.
-const OPTIONAL: [&str; 2] = ["up", "density"];
+/// Whether a key of a shape may be left out.
+fn is_optional(shape: &str, key: &str) -> bool {
+    matches!(key, "up" | "density") || shape == MESH && mesh::MAY_MISS.contains(&key)
+}
+
+/// A shape as it is written.
+#[derive(Debug)]
+pub(super) enum Written<'a> {
+    Formulas(Box<Formulas<'a>>),
+    Mesh(Mesh<'a>),
+}
+
+impl<'a> Written<'a> {
+    /// What was written.
+    pub(super) fn call(&self) -> &'a ExprCall {
+        match self {
+            Self::Formulas(shape) => shape.call,
+            Self::Mesh(mesh) => mesh.call,
+        }
+    }
+
+    /// Its own density (kg/m^3), where that is given.
+    pub(super) fn density(&self) -> Option<&'a Expr> {
+        match self {
+            Self::Formulas(shape) => shape.density,
+            Self::Mesh(mesh) => mesh.density,
+        }
+    }
+}
 
 /// Which axes a shape has.
 #[derive(Clone, Debug)]
@@ -48,7 +78,7 @@ pub(super) struct Formulas<'a> {
 
 impl Reader<'_, '_> {
     /// A shape, of which `own_density` may tell its density itself.
-    pub(super) fn shape<'e>(&mut self, expr: &'e Expr, own_density: bool) -> Option<Formulas<'e>> {
+    pub(super) fn shape<'e>(&mut self, expr: &'e Expr, own_density: bool) -> Option<Written<'e>> {
         let names = SHAPES.map(|(name, _)| name);
         let Expr::Call(call) = ungroup(expr) else {
             self.faults.at(
@@ -74,10 +104,14 @@ impl Reader<'_, '_> {
         let needed: Option<Vec<&Expr>> = given[..keys.len()]
             .iter()
             .zip(keys)
-            .filter(|(_, key)| !OPTIONAL.contains(key))
+            .filter(|(_, key)| !is_optional(name, key))
             .map(|(given, _)| *given)
             .collect();
         let needed = needed?;
+        if name == MESH {
+            let mesh = self.mesh(call, &given[..keys.len()], density)?;
+            return Some(Written::Mesh(mesh));
+        }
         let (volume, centre, axes) = match (name, &needed[..]) {
             ("ball", &[radius, at]) => {
                 self.positive(name, [("radius", radius)])?;
@@ -126,13 +160,13 @@ impl Reader<'_, '_> {
             }
             _ => return None,
         };
-        Some(Formulas {
+        Some(Written::Formulas(Box::new(Formulas {
             call,
             volume,
             centre,
             axes,
             density,
-        })
+        })))
     }
 
     /// A shape between two points, by its other sizes.
@@ -214,7 +248,7 @@ impl Reader<'_, '_> {
         let missing: Vec<&str> = keys
             .iter()
             .zip(&given)
-            .filter(|(key, given)| given.is_none() && !OPTIONAL.contains(key))
+            .filter(|(key, given)| given.is_none() && !is_optional(name, key))
             .map(|(key, _)| *key)
             .collect();
         if is_sound && !missing.is_empty() {

@@ -6,13 +6,13 @@
 
 use proc_macro2::Span;
 use syn::spanned::Spanned;
-use syn::{Expr, ExprParen, parse_quote, token};
+use syn::{Expr, ExprCall, ExprParen, parse_quote, token};
 
 use super::formula::product;
-use super::lumps::{Lump, about, norm, turned, unit};
+use super::lumps::{Frame, Lump, about, norm, turned, unit};
 use super::reader::{AS_GIVEN, Reader};
 use super::rotation::cross;
-use super::shape::{Axes, Formulas};
+use super::shape::{Axes, Formulas, Written};
 use crate::check::number::elements;
 use crate::check::pairs::Pairs;
 use crate::model::inertia::{IDENTITY, compose, euler_parameters, principal, rotation};
@@ -29,23 +29,6 @@ pub(super) struct Solid {
     pub(super) shapes: Vec<Shape>,
     /// See [`crate::model::Body::as_given`].
     pub(super) as_given: bool,
-}
-
-/// Where a shape or a body is: its centre of mass (m, global), and Euler parameters from its axes
-/// to global axes.
-#[derive(Clone, Copy)]
-pub(super) struct Frame {
-    pub(super) centre: [f64; 3],
-    pub(super) axes: [f64; 4],
-}
-
-impl Frame {
-    /// With Euler parameters of length 1.
-    pub(super) fn unit(self) -> Self {
-        let norm = self.axes.iter().map(|e| e * e).sum::<f64>().sqrt();
-        let axes = self.axes.map(|e| e / norm);
-        Self { axes, ..self }
-    }
 }
 
 /// Why a key is refused beside a shape.
@@ -75,7 +58,9 @@ impl Reader<'_, '_> {
         let owner = (!pairs.is_unreadable()).then_some(owner);
         let weight = self.weight(&shapes, mass, density, owner)?;
         match &shapes[..] {
-            [shape] if orientation.is_none() || matches!(shape.axes, Axes::Body) => {
+            [Written::Formulas(shape)]
+                if orientation.is_none() || matches!(shape.axes, Axes::Body) =>
+            {
                 self.one(shape, weight, orientation)
             }
             _ => self.in_numbers(&shapes, weight, orientation),
@@ -88,7 +73,7 @@ impl Reader<'_, '_> {
         single: Option<&'e Expr>,
         several: Option<&'e Expr>,
         own_densities: bool,
-    ) -> Option<Vec<Formulas<'e>>> {
+    ) -> Option<Vec<Written<'e>>> {
         match (single, several) {
             (Some(single), None) => Some(vec![self.shape(single, false)?]),
             (None, Some(several)) => self.shapes(several, own_densities),
@@ -102,7 +87,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn shapes<'e>(&mut self, expr: &'e Expr, own_densities: bool) -> Option<Vec<Formulas<'e>>> {
+    fn shapes<'e>(&mut self, expr: &'e Expr, own_densities: bool) -> Option<Vec<Written<'e>>> {
         let several = elements(expr).unwrap_or_default();
         if several.is_empty() {
             let message = "expected shapes in brackets, as in `[ball(..), cylinder(..)]`";
@@ -118,13 +103,13 @@ impl Reader<'_, '_> {
 
     fn weight<'e>(
         &mut self,
-        shapes: &[Formulas<'_>],
+        shapes: &[Written<'_>],
         mass: Option<&'e Expr>,
         density: Option<&'e Expr>,
         owner: Option<Span>,
     ) -> Option<Weight<'e>> {
         let name = self.name;
-        let own: Vec<&Expr> = shapes.iter().filter_map(|shape| shape.density).collect();
+        let own: Vec<&Expr> = shapes.iter().filter_map(Written::density).collect();
         match (mass, density) {
             (Some(mass), Some(_)) => {
                 let message = format!("`{name}` has a `mass` and a `density`; give either");
@@ -225,13 +210,14 @@ impl Reader<'_, '_> {
             centre,
             axes,
             is_hole,
+            file: None,
         })
     }
 
     /// A shape on a body, both in global axes.
     pub(super) fn on_body(
         &mut self,
-        shape: &Formulas<'_>,
+        shape: &Written<'_>,
         own: Frame,
         body: Frame,
         is_hole: bool,
@@ -240,7 +226,10 @@ impl Reader<'_, '_> {
         let s = [0, 1, 2].map(|k| own.centre[k] - body.centre[k]);
         let s = [0, 1, 2].map(|l| (0..3).map(|k| a[k][l] * s[k]).sum());
         let turned = compose([e0, -e1, -e2, -e3], own.axes);
-        self.drawn(shape, s, turned, is_hole)
+        match shape {
+            Written::Formulas(shape) => self.drawn(shape, s, turned, is_hole),
+            Written::Mesh(mesh) => Some(Self::drawn_mesh(mesh, (s, turned), is_hole)),
+        }
     }
 
     /// Euler parameters of a shape's axes.
@@ -256,9 +245,9 @@ impl Reader<'_, '_> {
                 )
             }
             Axes::Along(d, Some(up)) => {
-                let (d, up) = (self.seen(shape, d), self.components(up));
+                let (d, up) = (self.seen(shape.call, d), self.components(up));
                 let (d, up) = (d?, up?);
-                let up = self.seen(shape, &up)?;
+                let up = self.seen(shape.call, &up)?;
                 let x = unit(d);
                 let along: f64 = (0..3).map(|k| up[k] * x[k]).sum();
                 let z = [0, 1, 2].map(|k| up[k] - along * x[k]);
@@ -277,21 +266,21 @@ impl Reader<'_, '_> {
     }
 
     /// Numbers that the macro can see.
-    fn seen(&mut self, shape: &Formulas<'_>, parts: &[Expr; 3]) -> Option<[f64; 3]> {
+    fn seen(&mut self, call: &ExprCall, parts: &[Expr; 3]) -> Option<[f64; 3]> {
         let [x, y, z] = parts;
         Some([
-            self.seen_one(shape, x)?,
-            self.seen_one(shape, y)?,
-            self.seen_one(shape, z)?,
+            self.seen_one(call, x)?,
+            self.seen_one(call, y)?,
+            self.seen_one(call, z)?,
         ])
     }
 
-    fn seen_one(&mut self, shape: &Formulas<'_>, number: &Expr) -> Option<f64> {
+    fn seen_one(&mut self, call: &ExprCall, number: &Expr) -> Option<f64> {
         let part = self.numbers.part(number, self.faults)?;
         if !part.is_written {
             self.faults.at(
-                shape.call,
-                "several shapes, a given orientation and `up` need numbers that the macro can see, to find principal axes",
+                call,
+                "several shapes, a mesh, a given orientation and `up` need numbers that the macro can see, to find principal axes",
             );
             return None;
         }
@@ -300,14 +289,17 @@ impl Reader<'_, '_> {
 
     fn in_numbers(
         &mut self,
-        shapes: &[Formulas<'_>],
+        shapes: &[Written<'_>],
         weight: Weight<'_>,
         orientation: Option<&Expr>,
     ) -> Option<Solid> {
         let axes = match orientation {
             Some(orientation) => {
                 self.at("orientation");
-                self.seen_turn("the `orientation` of several shapes", orientation)?
+                self.seen_turn(
+                    "the `orientation` of several shapes, or of a mesh,",
+                    orientation,
+                )?
             }
             None => IDENTITY,
         };
@@ -320,7 +312,7 @@ impl Reader<'_, '_> {
         if let Weight::Mass(mass) = weight {
             // So far of density 1.
             self.at("mass");
-            let whole = self.seen_one(&shapes[0], mass)?;
+            let whole = self.seen_one(shapes[0].call(), mass)?;
             if whole <= 0.0 {
                 // The sentence about it.
                 self.mass(mass)?;
@@ -328,7 +320,7 @@ impl Reader<'_, '_> {
             lumps.iter_mut().for_each(|lump| lump.scale(whole / volume));
         }
         let mass: f64 = lumps.iter().map(|lump| lump.mass).sum();
-        let call = shapes[0].call;
+        let call = shapes[0].call();
         if mass <= 0.0 {
             let name = self.name;
             self.faults.at(
@@ -349,13 +341,14 @@ impl Reader<'_, '_> {
         let moments = moments.map(Number::Literal);
         self.moments(&Expr::Call(call.clone()), moments)?;
         let drawn = shapes.iter().zip(&lumps).map(|(shape, lump)| {
-            let (own, body) = (
-                Frame {
+            let own = match shape {
+                Written::Formulas(_) => Frame {
                     centre: lump.centre,
                     axes: lump.axes,
                 },
-                Frame { centre, axes },
-            );
+                Written::Mesh(mesh) => mesh.frame.unit(),
+            };
+            let body = Frame { centre, axes };
             self.on_body(shape, own, body, lump.mass < 0.0)
         });
         let drawn: Vec<_> = drawn.collect();
@@ -370,21 +363,23 @@ impl Reader<'_, '_> {
         })
     }
 
-    fn lump(
-        &mut self,
-        shape: &Formulas<'_>,
-        weight: Weight<'_>,
-        of_body: [f64; 4],
-    ) -> Option<Lump> {
-        let density = match (shape.density, weight) {
+    fn lump(&mut self, shape: &Written<'_>, weight: Weight<'_>, of_body: [f64; 4]) -> Option<Lump> {
+        let density = match (shape.density(), weight) {
             (Some(own), _) => own.clone(),
             (None, Weight::Density(density)) => density.clone(),
             _ => parse_quote!(1.0),
         };
+        let shape = match shape {
+            Written::Formulas(shape) => shape,
+            Written::Mesh(mesh) => {
+                let density = self.seen_one(mesh.call, &density)?;
+                return self.mesh_lump(mesh, density);
+            }
+        };
         let mass = product(&density, &shape.volume.volume);
-        let mass = self.seen_one(shape, &mass)?;
-        let centre = self.seen(shape, &shape.centre)?;
-        let moments = self.seen(shape, &shape.volume.moments)?;
+        let mass = self.seen_one(shape.call, &mass)?;
+        let centre = self.seen(shape.call, &shape.centre)?;
+        let moments = self.seen(shape.call, &shape.volume.moments)?;
         let p = match &shape.axes {
             Axes::Body => of_body,
             Axes::Along(..) => literals(&self.own_axes(shape)?)?,
