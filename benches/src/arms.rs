@@ -204,7 +204,11 @@ where
     let mut rows = Vec::new();
     for (quantity, timing) in QUANTITIES.into_iter().zip(&timings) {
         let mut asked = M::JOINT_REPORT.asked.iter();
-        let kernel = asked.find(|kernel| kernel.name == quantity.1);
+        let word = match quantity.1 {
+            "linearise" => "derivatives",
+            word => word,
+        };
+        let kernel = asked.find(|kernel| kernel.name == word);
         rows.push(Row {
             arm: name,
             quantity: quantity.0,

@@ -1,4 +1,4 @@
-//! The Jacobian of the rates, by kernels over forward numbers.
+//! The Jacobian of the rates, by a kernel of its own or by kernels over forward numbers.
 
 use super::{Dynamics, Solvable};
 use crate::formulation::Formulation;
@@ -22,6 +22,11 @@ where
         columns: &mut <C::State<S> as Vector<S>>::Each<C::State<S>>,
     ) -> Option<usize> {
         let equations = self.evaluator().equations;
+        if !A::PRESENT && C::differentiated(&equations.constants, time, state, columns) {
+            let independent = (0..state.length()).filter(|&index| state.is_independent(index));
+            let mut columns = independent.clone().map(|index| &columns[index]);
+            return columns.all(Vector::is_finite).then(|| independent.count());
+        }
         let constants: &C::Constants<Lifted<S>> = &lifted(&equations.constants);
         let coefficients: &C::Coefficients<Lifted<S>> = &lifted(&equations.coefficients);
         let at = Forward::fixed(time);

@@ -5,14 +5,15 @@ use core::array::from_fn;
 use nalgebra::SMatrix;
 
 use super::IndependentCoordinates;
+use super::derived::Derived;
 use super::determined::Needs;
 use super::directions::Along;
 use super::elimination::at;
-use super::equations::Factors;
+use super::equations::{Factors, not_finite};
 use super::linearised::Linearised;
 use super::partition::{Partition, joint_rates};
 use super::varied::Adjusted;
-use crate::error::{Fault, LeavesOut, NotFinite, StepFault};
+use crate::error::{Fault, LeavesOut};
 use crate::forward::{Forward, Lifted, lifted};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, read};
@@ -94,7 +95,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// As [`IndependentCoordinates::mass`]; [`StepFault::RatesNotFinite`] where there is no
+    /// As [`IndependentCoordinates::mass`];
+    /// [`StepFault::RatesNotFinite`](crate::error::StepFault::RatesNotFinite) where there is no
     /// derivative; [`AnalysisFault::OnSwitch`](crate::error::AnalysisFault::OnSwitch) where a law
     /// switches in this state, and its sides differ. Off its switch a law is that of the side where
     /// it is.
@@ -137,8 +139,24 @@ where
     ) -> Result<Linearised<N, K, P, S>, Fault> {
         bodies_alone::<M>(LeavesOut::Linearisation)?;
         let mut linear = Linearised::<N, K, P, S>::zeros();
+        let derived = match outcome {
+            Outcome::Accelerations => Derived::of(&self.equations, state),
+            Outcome::Efforts => None,
+        };
+        let is_known = |along| matches!(&derived, Some(derived) if derived.has(along));
+        let mut missing = values.iter().filter(|&&value| !is_known(value.into()));
+        let is_complete = derived.is_some() && missing.next().is_none();
+        let is_tree = M::JOINT_REPORT.closing.is_empty();
+        let mut motions = M::JOINT_REPORT.motions.iter();
+        let has_balls = motions.any(|motion| motion.freedom == Freedom::Ball);
+        if let Some(derived) = derived.as_ref().filter(|_| is_tree) {
+            derived.write(values, None, &mut linear);
+            if P == 0 && is_complete && !has_balls {
+                return finite(linear);
+            }
+        }
         let partition = self.known(state, Needs::Derivatives)?;
-        if (M::JOINT_REPORT.motions.iter()).any(|motion| motion.freedom == Freedom::Ball) {
+        if has_balls {
             let rates = joint_rates::<M, S>(state);
             linear.rates_by_positions = SMatrix::from_fn(|row, column| {
                 let place = self.equations.places.get(row).copied().unwrap_or(0);
@@ -149,51 +167,60 @@ where
         // With `M a = -h`, `M da = -(d(M) a + dh)`: what changes the efforts of these
         // accelerations.
         let equations = &self.equations;
-        let following = (!M::JOINT_REPORT.closing.is_empty()).then_some(&partition);
+        let following = (!is_tree).then_some(&partition);
+        if let Some(derived) = derived.as_ref().filter(|_| !is_tree) {
+            derived.write(values, following, &mut linear);
+        }
         let mut accelerations = [S::zero(); N];
         let mass = match outcome {
-            Outcome::Accelerations => {
+            Outcome::Accelerations if !is_complete => {
                 let bias = equations.inverse_with(following, state, &accelerations);
                 let mass = Factors::of(equations.mass_with(following, state));
                 accelerations = mass.solve(bias.map(|bias| -bias));
                 Some(mass)
             }
-            Outcome::Efforts => None,
+            _ => None,
         };
         let positions = (0..N).map(|number| (Part::Positions, number, Along::Position(number)));
         let rates = (0..N).map(|number| (Part::Rates, number, Along::Rate(number)));
         let values = values.iter().enumerate();
         let values = values.map(|(number, &value)| (Part::Values, number, value.into()));
-        let mut columns = positions.chain(rates).chain(values);
+        let columns = positions.chain(rates).chain(values);
+        let mut columns = columns.filter(|&(.., along)| P > 0 || !is_known(along));
         loop {
             let columns: [_; LANES] = from_fn(|_| columns.next());
             let [Some(_), ..] = columns else { break };
             let directions = columns.map(|column| column.map(|(.., direction)| direction));
             let moving = (state, &accelerations);
-            let (efforts, readings) = self.along(moving, &partition, &directions, &read)?;
+            let mut directed = directions.iter().flatten();
+            let wanted = directed.any(|&along| !is_known(along)).then_some(outcome);
+            let (efforts, readings) =
+                self.along(moving, &partition, (&directions, wanted), &read)?;
             let mut outcomes = efforts.map(|effort| effort.derivatives().map(|slope| -slope));
             if let Some(mass) = &mass {
                 mass.solve_each(&mut outcomes);
             }
             let readings = readings.map(|reading| reading.derivatives());
-            for (lane, (part, column, _)) in columns.into_iter().flatten().enumerate() {
+            for (lane, (part, column, along)) in columns.into_iter().flatten().enumerate() {
+                let slopes = &mut linear;
                 match part {
                     Part::Positions => {
-                        put(&mut linear.by_positions, column, &outcomes, lane);
-                        put(&mut linear.readings_by_positions, column, &readings, lane);
+                        put(&mut slopes.readings_by_positions, column, &readings, lane);
                     }
-                    Part::Rates => {
-                        put(&mut linear.by_rates, column, &outcomes, lane);
-                        put(&mut linear.readings_by_rates, column, &readings, lane);
-                    }
-                    Part::Values => {
-                        put(&mut linear.by_values, column, &outcomes, lane);
-                        put(&mut linear.readings_by_values, column, &readings, lane);
-                    }
+                    Part::Rates => put(&mut slopes.readings_by_rates, column, &readings, lane),
+                    Part::Values => put(&mut slopes.readings_by_values, column, &readings, lane),
+                }
+                if is_known(along) {
+                    continue;
+                }
+                match part {
+                    Part::Positions => put(&mut slopes.by_positions, column, &outcomes, lane),
+                    Part::Rates => put(&mut slopes.by_rates, column, &outcomes, lane),
+                    Part::Values => put(&mut slopes.by_values, column, &outcomes, lane),
                 }
             }
         }
-        if let Some(mass) = &mass {
+        if let (Some(mass), None) = (&mass, &derived) {
             let one = |row: usize, column: usize| S::constant(f64::from(u8::from(row == column)));
             let mut inverse = from_fn(|row| from_fn(|column| one(row, column)));
             mass.solve_each::<N>(&mut inverse);
@@ -201,28 +228,27 @@ where
                 put(&mut linear.by_efforts, column, &inverse, column);
             }
         }
-        if linear.is_finite() {
-            Ok(linear)
-        } else {
-            Err(Fault::Step(StepFault::RatesNotFinite {
-                origin: NotFinite::Unknown,
-            }))
-        }
+        finite(linear)
     }
 
-    /// The efforts of accelerations, and readings, along some directions.
+    /// The efforts of accelerations, where they are wanted, and readings, along some directions.
     fn along<const P: usize>(
         &self,
         (state, accelerations): (&M::JointState<S>, &[S; N]),
         partition: &Partition<M, N, S>,
-        directions: &[Option<Along>; LANES],
+        (directions, wanted): (&[Option<Along>; LANES], Option<Outcome>),
         read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Slopes<S, N, P>, Fault> {
         let there = self.state_along(state, partition, directions)?;
-        let following = there.equations.following(&there.state)?;
-        let accelerations = accelerations.map(Forward::fixed);
-        let efforts =
-            (there.equations).inverse_with(following.as_ref(), &there.state, &accelerations);
+        let mut efforts = [Forward::zero(); N];
+        if wanted.is_some() {
+            let following = there.equations.following(&there.state)?;
+            let accelerations = accelerations.map(Forward::fixed);
+            let following = following.as_ref();
+            efforts = there
+                .equations
+                .inverse_with(following, &there.state, &accelerations);
+        }
         if P == 0 {
             return Ok((efforts, [Forward::zero(); P]));
         }
@@ -234,6 +260,17 @@ where
         let bodies = self.bodies_along(state, &there);
         let view = View::new(&constants, there.equations.time, &bodies);
         Ok((efforts, read(&view)))
+    }
+}
+
+/// What is finite all over.
+fn finite<const N: usize, const K: usize, const P: usize, S: Real>(
+    linear: Linearised<N, K, P, S>,
+) -> Result<Linearised<N, K, P, S>, Fault> {
+    if linear.is_finite() {
+        Ok(linear)
+    } else {
+        Err(not_finite())
     }
 }
 

@@ -53,17 +53,22 @@ impl<const N: usize, const K: usize, const P: usize, S: Real> Linearised<N, K, P
     }
 
     pub(super) fn is_finite(&self) -> bool {
-        let square = [&self.rates_by_positions, &self.by_positions];
-        let more = [&self.by_rates, &self.by_efforts];
-        let readings = [&self.readings_by_positions, &self.readings_by_rates];
-        let mut parts = square.into_iter().chain(more).map(SMatrix::as_slice);
-        let mut readings = readings.into_iter().map(SMatrix::as_slice);
-        let values = [
+        let parts = [
+            self.rates_by_positions.as_slice(),
+            self.by_positions.as_slice(),
+            self.by_rates.as_slice(),
             self.by_values.as_slice(),
+            self.by_efforts.as_slice(),
+            self.readings_by_positions.as_slice(),
+            self.readings_by_rates.as_slice(),
             self.readings_by_values.as_slice(),
         ];
-        let is_finite = |part: &[S]| part.iter().all(|x| x.is_finite());
-        parts.all(is_finite) && readings.all(is_finite) && values.into_iter().all(is_finite)
+        // Without an early end, so that the compiler looks at several at once.
+        let is_finite =
+            |part: &[S]| (part.iter()).fold(true, |finite, number| finite & number.is_finite());
+        parts
+            .into_iter()
+            .fold(true, |finite, part| finite & is_finite(part))
     }
 
     /// `A`, for `X = 2 N`; another `X` does not compile.

@@ -7,6 +7,7 @@
 //!   Wehage and Haug 1982).
 //! - `equations.rs`: mass matrix and efforts. `points.rs`, `momentum.rs`: Jacobians. `states.rs`:
 //!   the way to states and back; `followed.rs`: the same near a singular configuration.
+//! - `derived.rs`: accelerations with their derivatives by a kernel of their own.
 //! - `directions.rs`: derivatives along coordinates, rates and values.
 //! - `elimination.rs`: Gauss-Jordan, for these equations and for Newton's method.
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions,
@@ -30,6 +31,7 @@ mod balance;
 mod base_parameters;
 mod choice;
 mod continuation;
+mod derived;
 mod determined;
 mod directions;
 mod elimination;
@@ -106,6 +108,8 @@ pub struct IndependentCoordinates<M: JointRates, const N: usize, S: Scalar = f64
     /// In absolute coordinates.
     constants: M::Constants<S>,
     equations: Equations<M, N, S>,
+    /// The described state of a tree, and the chosen coordinates there: whence states are set.
+    described: Option<(M::JointState<S>, [S; N])>,
     /// Whether the limits of the description are left out.
     pub(crate) passes_limits: bool,
 }
@@ -191,12 +195,15 @@ pub trait IndependentExt: JointRates {
         let places = choice::places::<Self, N>(chosen)?;
         let parameters = self.parameters()?;
         let constants = Self::prepare(&parameters);
-        Ok(IndependentCoordinates {
+        let mut space = IndependentCoordinates {
             equations: Equations::prepared((&parameters, &constants), places, S::zero()),
             constants,
             parameters,
+            described: None,
             passes_limits: false,
-        })
+        };
+        space.describe();
+        Ok(space)
     }
 }
 

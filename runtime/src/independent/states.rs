@@ -73,6 +73,13 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         positions: impl Into<SVector<S, N>>,
         rates: impl Into<SVector<S, N>>,
     ) -> Result<M::JointState<S>, Fault> {
+        let [positions, rates]: [SVector<S, N>; 2] = [positions.into(), rates.into()];
+        if let Some((from, begin)) = &self.described {
+            let (positions, rates) = (given::<S, N>(positions.into())?, given(rates.into())?);
+            let begin = SVector::from(*begin);
+            let way = positions.zip_map(&begin, |wanted, begin| wanted - begin);
+            return self.moved(from, &begin, &way, rates);
+        }
         let described = M::initial_state(&self.constants);
         let mut from = self.of_bodies(&described);
         if !M::JOINT_REPORT.closing.is_empty() {
@@ -81,7 +88,41 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             assembled::<S, M>(&projection, &self.constants, time, &mut bodies, &described)?;
             from = self.of_bodies(&bodies);
         }
-        self.state_from(&from, false, positions.into().into(), rates.into().into())
+        self.state_from(&from, false, positions.into(), rates.into())
+    }
+
+    /// Finds the described state of a tree, which parameters change.
+    pub(super) fn describe(&mut self) {
+        self.described = None;
+        if M::JOINT_REPORT.closing.is_empty() {
+            let described = self.of_bodies(&M::initial_state(&self.constants));
+            let positions = self.positions_of(&described).ok();
+            self.described = positions.map(|positions| (described, positions));
+        }
+    }
+
+    /// A state of a tree on a way from another one, whose coordinates are known.
+    fn moved(
+        &self,
+        from: &M::JointState<S>,
+        begin: &SVector<S, N>,
+        way: &SVector<S, N>,
+        rates: SVector<S, N>,
+    ) -> Result<M::JointState<S>, Fault> {
+        let mut state = self.turned(from, &(*way).into());
+        if M::JOINT_REPORT.rewraps {
+            let mut bodies = self.bodies(&state);
+            M::rewrap(&self.constants, &mut bodies);
+            state = self.of_bodies(&bodies);
+        }
+        for ((begin, way), &place) in begin.iter().zip(way).zip(&self.equations.places) {
+            let (_, motion) = motion_at::<M>(place)?;
+            let counted = place_of::<M>(motion);
+            if let Some(counted) = counted.and_then(|place| state.turns_mut().get_mut(place)) {
+                *counted = *begin + *way;
+            }
+        }
+        self.with_rates(&state, rates)
     }
 
     /// The same on the branch of another state, by the nearest turns: of an angle and those that
@@ -114,20 +155,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             positions.zip_map(&begin, |wanted, present| wanted - present)
         };
         if M::JOINT_REPORT.closing.is_empty() {
-            state = self.turned(&state, &way.into());
-            if M::JOINT_REPORT.rewraps {
-                let mut bodies = self.bodies(&state);
-                M::rewrap(&self.constants, &mut bodies);
-                state = self.of_bodies(&bodies);
-            }
-            for ((begin, way), &place) in begin.iter().zip(&way).zip(&self.equations.places) {
-                let (_, motion) = motion_at::<M>(place)?;
-                let counted = place_of::<M>(motion);
-                if let Some(counted) = counted.and_then(|place| state.turns_mut().get_mut(place)) {
-                    *counted = *begin + *way;
-                }
-            }
-            return self.with_rates(&state, rates);
+            return self.moved(from, &begin, &way, rates);
         }
         // In steps, so that what is geared to a coordinate is taken along over any number of turns.
         let widest = self.angles(&way).into_iter().fold(S::zero(), S::max);
@@ -306,6 +334,14 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let mut state = *state;
         // Those it has leave their round-off in what drivers move.
         state.rates_slice_mut().fill(S::zero());
+        if M::JOINT_REPORT.closing.is_empty() {
+            let mut all = M::JointVelocities::<S>::zeros();
+            for (&place, &rate) in self.equations.places.iter().zip(&rates) {
+                set(&mut all, place, rate);
+            }
+            put_velocities::<M, S>(&all, &mut state);
+            return Ok(state);
+        }
         let partition = self.known(&state, Needs::Rates)?;
         write_rates::<M, N, S>(&partition, &rates, true, &mut state);
         Ok(state)

@@ -156,6 +156,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         self.constants = constants;
         let Equations { places, time, .. } = self.equations;
         self.equations = Equations::prepared((&self.parameters, &self.constants), places, time);
+        self.describe();
         Ok(())
     }
 

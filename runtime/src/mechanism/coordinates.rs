@@ -13,7 +13,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::{Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms};
 use crate::state::sealed::Sealed;
-use crate::state::vector::{Array, MovingState};
+use crate::state::vector::{Array, MovingState, Vector};
 
 /// Absolute (Cartesian) coordinates: position and Euler parameters of every body, one multiplier
 /// for every equation of the joints.
@@ -106,6 +106,17 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + Sealed + 'static {
     /// Computes again what depends on inputs, and leaves what does not.
     #[doc(hidden)]
     fn take_inputs<S: Scalar>(parameters: &M::Parameters<S>, own: &mut Self::Own<S>);
+
+    /// Writes the Jacobian of the rates by a kernel of its own; whether there is one.
+    #[doc(hidden)]
+    fn differentiated<S: Real>(
+        _constants: &Self::Constants<S>,
+        _time: S,
+        _state: &Self::State<S>,
+        _columns: &mut <Self::State<S> as Vector<S>>::Each<Self::State<S>>,
+    ) -> bool {
+        false
+    }
 
     /// The whole right-hand side in one straight line: rates of the state and multipliers, without
     /// forces of a closure and with no multipliers before.

@@ -46,6 +46,9 @@ pub trait JointCoordinates: Mechanism {
     /// One number per velocity.
     type JointVelocities<S: Scalar>: Array<S>;
 
+    /// What [`JointCoordinates::derivatives`] gives.
+    type Derivatives<S: Scalar>: Array<S>;
+
     /// What the coordinates are, and what an evaluation costs.
     const JOINT_REPORT: JointReport;
 
@@ -90,6 +93,21 @@ pub trait JointCoordinates: Mechanism {
     ) -> Pivot<S> {
         let multipliers = &mut Array::zeros();
         Self::evaluate_joints_into::<S, T>(constants, coefficients, time, state, rates, multipliers)
+    }
+
+    /// With `kernels = [derivatives]`, in a tree, the inputs by which there are derivatives, by
+    /// their places in [`Report::values`](crate::Report::values).
+    const DERIVED_BY: Option<&'static [usize]> = None;
+
+    /// The accelerations of the rates of the joints; then, column by column, their derivatives by
+    /// the position of each, by each rate, by an effort along each, and by the inputs of
+    /// [`JointCoordinates::DERIVED_BY`]. No number where that is `None`.
+    fn derivatives<S: Scalar>(
+        _constants: &Self::JointConstants<S>,
+        _time: S,
+        _state: &Self::JointState<S>,
+    ) -> Self::Derivatives<S> {
+        Array::zeros()
     }
 
     /// Factorises the matrix of the equations of motion; with compliance where `T::COMPLIANT`. Its

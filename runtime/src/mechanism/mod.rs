@@ -13,6 +13,7 @@ pub(crate) mod body;
 pub(crate) mod by_rows;
 pub(crate) mod coordinates;
 pub(crate) mod handle;
+mod joint_columns;
 pub(crate) mod joint_kernels;
 pub(crate) mod joint_rates;
 pub(crate) mod joint_report;

@@ -8,6 +8,7 @@ use crate::mechanism::absolute::{nearer_sign, take_nearer_sign};
 use crate::mechanism::coordinates::{
     AbsoluteEquations, Coordinates, Equations, EquationsIn, First, Prepared, Relative, RightSide,
 };
+use crate::mechanism::joint_columns;
 use crate::mechanism::joint_kernels::{JointCoordinates, JointParts};
 use crate::mechanism::kernels::{Normalised, Pivot, Stabilisation, Terms};
 use crate::mechanism::report::{BodyInfo, BodyKind};
@@ -63,6 +64,15 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
     #[inline(always)]
     fn take_inputs<S: Scalar>(parameters: &M::Parameters<S>, own: &mut Self::Own<S>) {
         M::take_joint_inputs(parameters, &mut own.constants);
+    }
+
+    fn differentiated<S: Real>(
+        constants: &M::JointConstants<S>,
+        time: S,
+        state: &M::JointState<S>,
+        columns: &mut <M::JointState<S> as Vector<S>>::Each<M::JointState<S>>,
+    ) -> bool {
+        joint_columns::written::<M, S>(constants, time, state, columns)
     }
 
     #[inline(always)]

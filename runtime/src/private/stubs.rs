@@ -143,6 +143,7 @@ macro_rules! __stub_joints {
             type BodyMotions<__S: $crate::Scalar> = [__S; 0];
             type JointFactors<__S: $crate::Scalar> = [__S; 0];
             type JointVelocities<__S: $crate::Scalar> = [__S; 0];
+            type Derivatives<__S: $crate::Scalar> = [__S; 0];
             const JOINT_REPORT: $crate::mechanism::JointReport = $crate::mechanism::JointReport {
                 motions: &[],
                 closing: &[],

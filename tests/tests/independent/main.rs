@@ -6,6 +6,8 @@ mod cardan;
 mod choice;
 mod continuation;
 mod counts;
+mod derivatives;
+mod derivatives_reference;
 mod differences;
 mod equilibrium;
 mod found;

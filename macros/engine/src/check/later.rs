@@ -4,6 +4,17 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{BinOp, parse_quote};
 
+use crate::syntax::words::local;
+
+/// What an unknown number may be, where inputs may stand or not.
+pub(super) const fn later_advice(are_inputs_refused: bool) -> &'static str {
+    if are_inputs_refused {
+        "; a number for run time is a field with `#[param]`"
+    } else {
+        "; a number for run time is a field with `#[param]`, or with `#[input]` if it changes during a run"
+    }
+}
+
 /// A number, or an expression of type `f64`.
 pub(super) enum Value {
     Literal(f64),
@@ -27,6 +38,23 @@ pub(super) struct Later {
 }
 
 impl Value {
+    /// The place of the run-time value that it is, without anything more.
+    pub(super) fn itself(&self) -> Option<usize> {
+        let Self::Later(later) = self else {
+            return None;
+        };
+        let [place] = later.values[..] else {
+            return None;
+        };
+        let parameters = local("parameters");
+        let own = quote!(#parameters[#place]).to_string();
+        let is_same = later
+            .scalar
+            .as_ref()
+            .is_some_and(|found| found.to_string() == own);
+        is_same.then_some(place)
+    }
+
     pub(super) fn tokens(&self) -> TokenStream {
         match self {
             Self::Literal(value) => quote!(#value),

@@ -8,7 +8,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, Lit, UnOp};
 
 use super::elements::{Found, Reference, bare, known};
-use super::later::{Later, Value};
+use super::later::{Later, Value, later_advice};
 use crate::diag::{Faults, code, did_you_mean, list};
 use crate::model::name::Step;
 use crate::model::number::literals;
@@ -107,6 +107,7 @@ impl<'a> Numbers<'a> {
 
     /// The number that a value is: an expression becomes a symbol.
     pub(super) fn number(&mut self, value: Value, span: Span) -> Number {
+        let itself = value.itself();
         let Later {
             expression,
             scalar,
@@ -145,6 +146,7 @@ impl<'a> Numbers<'a> {
             expression,
             scalar,
             values,
+            itself,
             like,
             constant,
             span,
@@ -349,10 +351,8 @@ impl<'a> Numbers<'a> {
             let near = did_you_mean(&name, all.iter().map(|name| bare(name)));
             let advice = if path.path.get_ident().is_some_and(is_index) {
                 "; `k` is the number of an element, in the attribute of a field that is an array"
-            } else if self.values.is_empty() {
-                "; a number for run time is a field with `#[param]`"
             } else {
-                ""
+                later_advice(self.no_inputs.is_some())
             };
             let advice = if near.is_empty() { advice } else { &near };
             faults.at(

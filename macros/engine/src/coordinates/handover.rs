@@ -12,11 +12,12 @@
 //! a compliance do not hold the points together.
 
 use super::algebra::{Inertia, add, apply};
+use super::elimination::Solution;
 use super::frames::Frames;
 use super::freedom::Freedom;
 use super::kinematics::Kinematics;
 use super::links::Links;
-use super::system::{Reduced, Solution};
+use super::system::Reduced;
 use super::wrenches::Wrench;
 use crate::model::{Binding, Model, ParameterKind};
 use crate::plan::system::Terms;

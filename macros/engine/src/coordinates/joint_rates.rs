@@ -38,13 +38,13 @@ pub struct JointRates {
 }
 
 /// How velocities are made of the rates of joints: each of its own, and of another velocity.
-struct Sums {
+pub(super) struct Sums {
     against: Vec<Option<usize>>,
     is_reversed: Vec<bool>,
 }
 
 impl Sums {
-    fn of(links: &Links) -> Self {
+    pub(super) fn of(links: &Links) -> Self {
         let mut sums = Self {
             against: vec![None; links.velocities],
             is_reversed: vec![false; links.velocities],
@@ -75,7 +75,7 @@ impl Sums {
     }
 
     /// Velocities, or their rates, of those of the joints.
-    fn velocities(&self, arena: &mut Arena, rates: &[Expr]) -> Vec<Expr> {
+    pub(super) fn velocities(&self, arena: &mut Arena, rates: &[Expr]) -> Vec<Expr> {
         let mut velocities: Vec<Expr> = Vec::new();
         for (place, &rate) in rates.iter().enumerate() {
             let own = self.signed(place, rate);
@@ -87,6 +87,34 @@ impl Sums {
             velocities.push(velocity);
         }
         velocities
+    }
+
+    /// The rates of the joints, or theirs, of velocities.
+    pub(super) fn rates(&self, arena: &mut Arena, velocities: &[Expr]) -> Vec<Expr> {
+        let places = velocities.iter().enumerate();
+        let rates = places.map(|(place, &velocity)| {
+            let own = match self.against[place] {
+                Some(against) => arena.sub(velocity, velocities[against]),
+                None => velocity,
+            };
+            self.signed(place, own)
+        });
+        rates.collect()
+    }
+
+    /// What does work on the velocities, of what does on the rates of the joints.
+    pub(super) fn forces(&self, arena: &mut Arena, efforts: Vec<Expr>) -> Vec<Expr> {
+        let places = efforts.into_iter().enumerate();
+        let along: Vec<Expr> = places
+            .map(|(place, effort)| self.signed(place, effort))
+            .collect();
+        let mut forces = along.clone();
+        for (place, against) in self.against.iter().enumerate() {
+            if let Some(against) = *against {
+                forces[against] = arena.sub(forces[against], along[place]);
+            }
+        }
+        forces
     }
 
     /// What does work on the rates of the joints, of what does on the velocities.
@@ -120,15 +148,16 @@ impl JointRates {
             kernel.gather(&[]);
             kernel
         };
-        let asked = model.asked.iter().map(|&asked| {
+        let asked = model.asked.iter().filter_map(|&asked| {
             let outputs: &dyn Fn(&mut Reduced, &Sums) -> Vec<Expr> = match asked {
+                Asked::Derivatives => return None,
                 Asked::Mass => &Reduced::mass_of_joints,
                 Asked::Gravity => &|reduced, sums| reduced.efforts(sums, Wanted::Gravity),
                 Asked::Coriolis => &|reduced, sums| reduced.efforts(sums, Wanted::Coriolis),
                 Asked::Inverse => &|reduced, sums| reduced.efforts(sums, Wanted::All),
                 Asked::Jacobian => &|reduced, sums| reduced.axes_of_joints(sums),
             };
-            (asked, kernel(outputs))
+            Some((asked, kernel(outputs)))
         });
         Some(Self {
             asked: asked.collect(),
@@ -140,7 +169,7 @@ impl JointRates {
 
 /// Which part of the efforts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Wanted {
+pub(super) enum Wanted {
     /// What holds the weights.
     Gravity,
     /// What the motion takes: momenta, Coriolis and gyroscopic terms.
@@ -151,7 +180,7 @@ enum Wanted {
 
 impl Reduced {
     /// Efforts along the rates of the joints.
-    fn efforts(&mut self, sums: &Sums, wanted: Wanted) -> Vec<Expr> {
+    pub(super) fn efforts(&mut self, sums: &Sums, wanted: Wanted) -> Vec<Expr> {
         let ground = match wanted {
             Wanted::Coriolis => ZERO,
             _ => self.scene.gravity.map(|component| -component),
@@ -213,7 +242,7 @@ impl Reduced {
     }
 
     /// `D` of the rows that remain, row by row, `gamma`, `Phi'` and `Phi`.
-    fn rows_of_joints(&mut self, sums: &Sums) -> Vec<Expr> {
+    pub(super) fn rows_of_joints(&mut self, sums: &Sums) -> Vec<Expr> {
         let (rows, gamma) = self.rows(Terms::Plain);
         let arena = &mut self.scene.space.arena;
         let mut outputs: Vec<Expr> = Vec::new();

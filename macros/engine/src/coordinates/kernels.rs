@@ -1,16 +1,18 @@
 //! The kernels of a mechanism in joint coordinates.
 
 use super::candidates::{Strategy, choose};
+use super::derivatives::Derivatives;
 use super::freedom::Freedom;
 use super::from_bodies::from_bodies;
 use super::joint_rates::JointRates;
+use super::rates::coordinate_rates;
 use super::system::Reduced;
 use crate::model::{BodyKind, Model};
 use crate::plan::kernels::{PivotCheck, Solver, relative};
 use crate::plan::system::Terms;
-use crate::symbolic::arena::{Arena, Expr, Input, Stage};
+use crate::symbolic::arena::{Arena, Input, Stage};
 use crate::symbolic::count::count;
-use crate::symbolic::equations::{Kernel, euler_rates, state_rates, turning};
+use crate::symbolic::equations::{Kernel, state_rates, turning};
 use crate::symbolic::scene::Chart;
 
 /// An evaluation: outputs are the rates of the pairs' angles, of the further coordinates and
@@ -99,6 +101,8 @@ pub struct JointKernels {
     pub joints: Kernel,
     /// What is asked for in the rates of the joints.
     pub joint_rates: Option<JointRates>,
+    /// The accelerations with their derivatives, where they are asked for.
+    pub derivatives: Option<Derivatives>,
 }
 
 impl JointKernels {
@@ -177,6 +181,7 @@ impl JointKernels {
             solvers: solvers.collect(),
             bodies: bodies(&reduced, model),
             joint_rates: JointRates::new(model, &reduced),
+            derivatives: Derivatives::new(model, &reduced),
             joints: {
                 let mut arena = reduced.scene.space.arena.clone();
                 let outputs = from_bodies(&mut arena, model, links);
@@ -245,28 +250,6 @@ fn solver(mut reduced: Reduced, terms: Terms) -> Solver {
         checks: Vec::new(),
         solution: [solution.accelerations, solution.multipliers].concat(),
     }
-}
-
-/// The rates of the pairs' angles, then of the further coordinates.
-fn coordinate_rates(reduced: &mut Reduced) -> Vec<Expr> {
-    let Reduced { links, scene, .. } = reduced;
-    let arena = &mut scene.space.arena;
-    let mut rates = vec![Arena::ZERO; links.turns + links.rest];
-    for link in &links.links {
-        let mut rate = |k: usize| arena.input(Input::Velocity((link.velocity + k) as u32));
-        match link.freedom {
-            Freedom::Turn { pair, .. } | Freedom::Screw { pair, .. } => rates[pair] = rate(0),
-            Freedom::Slide { rest, .. } => rates[links.turns + rest] = rate(0),
-            Freedom::Ball { rest } => {
-                let w = [0, 1, 2].map(rate);
-                let first = 2 * links.turns + rest;
-                let p = [0, 1, 2, 3].map(|k| arena.input(Input::Coordinate((first + k) as u32)));
-                let of = euler_rates(arena, p, w);
-                rates[links.turns + rest..links.turns + rest + 4].copy_from_slice(&of);
-            }
-        }
-    }
-    rates
 }
 
 /// The bodies, by the way that takes fewer operations.

@@ -43,7 +43,7 @@
 //! matrices.
 //!
 //! Kernels that are asked for (`joint_rates.rs`): mass matrix, efforts and axes in the rates of the
-//! joints themselves.
+//! joints themselves. `derivatives.rs`: the accelerations with their derivatives.
 //!
 //! Bodies. `Scene::on` binds what is left of the joints to bodies whose states are expressions of
 //! joint coordinates. `from_bodies.rs` is the way back. Forces of closures and the augmented
@@ -59,7 +59,9 @@ pub mod candidates;
 mod carried;
 mod certain;
 mod dependent;
+pub mod derivatives;
 mod descent;
+pub mod elimination;
 pub mod frames;
 pub mod freedom;
 pub mod from_bodies;
@@ -70,6 +72,7 @@ mod kinematics;
 pub mod links;
 mod mass;
 mod origins;
+mod rates;
 mod reference;
 mod regroup;
 pub mod spanning;

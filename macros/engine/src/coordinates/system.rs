@@ -4,6 +4,7 @@ use super::algebra::{add, apply};
 use super::beginning::Beginning;
 use super::candidates::{Method, Strategy};
 use super::dependent::{Led, dependent};
+use super::elimination::{Elimination, Solution};
 use super::frames::Frames;
 use super::handover::Handover;
 use super::kinematics::Kinematics;
@@ -12,8 +13,6 @@ use super::origins::ToGround;
 use super::wrenches::{Wrench, inertial};
 use crate::model::{BodyKind, Model};
 use crate::plan::Pivot;
-use crate::plan::eliminate::{Check, factorise};
-use crate::plan::symmetric::Symmetric;
 use crate::plan::system::Terms;
 use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::fixed::{clean, size, transpose};
@@ -33,26 +32,14 @@ pub struct Reduced {
     /// The equations of each joint that are left out, of those that remain.
     pub dropped: Vec<Vec<usize>>,
     /// How they are solved.
-    strategy: Strategy,
+    pub(super) strategy: Strategy,
     /// The links with masses handed over closing joints.
     counted: Option<(Links, Vec<Handover>)>,
     /// What is eliminated before the rest where rows have no compliance, and the determinants in
     /// the reference configuration.
-    together: (Vec<Pivot>, Vec<f64>),
+    pub(super) together: (Vec<Pivot>, Vec<f64>),
     /// What recorded pivots are compared with, row by row, where it is known.
     pub(super) references: Vec<Option<f64>>,
-}
-
-/// The solution of the equations of motion.
-#[derive(Clone, Debug)]
-pub struct Solution {
-    /// Rates of the velocities.
-    pub accelerations: Vec<Expr>,
-    /// Multipliers of the rows that remain.
-    pub multipliers: Vec<Expr>,
-    /// Pivots that depend on the state and are not safe by themselves, with the row in the place of
-    /// the unknown.
-    pub checks: Vec<Check>,
 }
 
 impl Reduced {
@@ -419,9 +406,11 @@ impl Reduced {
         let taken = self.together.0.iter().flat_map(|pivot| pivot.unknowns());
         taken.filter(|&k| k >= self.links.velocities).count() == self.scene.layout.rows
     }
+}
 
+impl Reduced {
     /// The order in which velocities and multipliers are eliminated.
-    fn elimination(&self, terms: Terms, rows: &[Vec<Expr>]) -> Elimination {
+    pub(super) fn elimination(&self, terms: Terms, rows: &[Vec<Expr>]) -> Elimination {
         let velocities = self.links.velocities;
         let (together, determinants) = if terms == Terms::Compliant {
             (Vec::new(), Vec::new())
@@ -448,62 +437,6 @@ impl Reduced {
                 .collect(),
             determinants,
             is_compliant: terms == Terms::Compliant,
-        }
-    }
-}
-
-/// How `[M D^T; D -E]` is solved.
-#[derive(Clone, Debug)]
-struct Elimination {
-    pivots: Vec<Pivot>,
-    determinants: Vec<f64>,
-    /// Whether every row determines a velocity.
-    is_determined: bool,
-    is_compliant: bool,
-}
-
-impl Elimination {
-    /// Solves the system for forces along the velocities and right-hand sides of the rows.
-    fn solve(
-        &self,
-        arena: &mut Arena,
-        links: &Links,
-        rows: &[Vec<Expr>],
-        mut right: Vec<Expr>,
-        lower: Vec<Expr>,
-    ) -> Solution {
-        right.extend(lower);
-        let velocities = links.velocities;
-        let mass = links.mass_matrix(arena);
-        let mut matrix = Symmetric::new(velocities + rows.len());
-        for k in 0..velocities {
-            for l in 0..=k {
-                matrix.set(k, l, mass.get(k, l));
-            }
-        }
-        for (row, entries) in rows.iter().enumerate() {
-            for (k, &entry) in entries.iter().enumerate() {
-                matrix.set(velocities + row, k, entry);
-            }
-            if self.is_compliant {
-                let compliance = arena.input(Input::Compliance(row as u32));
-                matrix.set(velocities + row, velocities + row, -compliance);
-            }
-        }
-        let (pivots, determinants) = (&self.pivots, &self.determinants);
-        let factors = factorise(arena, matrix.clone(), matrix, pivots, determinants);
-        let mut solution = factors.solve(arena, right);
-        let multipliers = solution.split_off(velocities);
-        // Quasi-definite with a compliance: every pivot is safe.
-        let checks = factors.checks.iter().filter(|_| !self.is_compliant);
-        let checks = checks.map(|check| Check {
-            unknown: check.unknown - velocities,
-            ..*check
-        });
-        Solution {
-            accelerations: solution,
-            multipliers,
-            checks: checks.collect(),
         }
     }
 }

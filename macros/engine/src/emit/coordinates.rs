@@ -45,6 +45,7 @@ impl Writer<'_, JointKernels> {
         let bodies = self.bodies();
         let joints = self.joints();
         let coordinate_rates = self.coordinate_rates();
+        let derivatives = self.derivatives();
         let joint_rates = self.joint_rates();
         let coefficients = self.store.write_coefficients();
         let taken = taken(model, &mut self.store);
@@ -99,6 +100,7 @@ impl Writer<'_, JointKernels> {
                 #bodies
                 #joints
                 #coordinate_rates
+                #derivatives
             }
 
             #joint_rates

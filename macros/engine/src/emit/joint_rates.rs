@@ -6,6 +6,7 @@ use quote::{format_ident, quote};
 use super::joint_report::option;
 use super::straight_line::StraightLine;
 use super::writer::Writer;
+use crate::coordinates::derivatives::Derivatives;
 use crate::coordinates::joint_rates::JointRates;
 use crate::coordinates::kernels::JointKernels;
 use crate::model::Asked;
@@ -20,6 +21,7 @@ fn names(asked: Asked) -> (Ident, Ident, Option<Ident>) {
         Asked::Coriolis => ("HasCoriolis", "coriolis_efforts", None),
         Asked::Inverse => ("HasInverse", "inverse_dynamics", None),
         Asked::Jacobian => ("HasJacobian", "joint_axes", Some("Axes")),
+        Asked::Derivatives => ("JointCoordinates", "derivatives", Some("Derivatives")),
     };
     (
         format_ident!("{implemented}"),
@@ -72,6 +74,31 @@ impl Writer<'_, JointKernels> {
                     #statements
                     ([#(#jacobian),*], [[#(#gamma),*], [#(#rates),*], [#(#values),*]])
                 }
+            }
+        }
+    }
+
+    /// The accelerations with their derivatives; without these, the type of no number.
+    pub(super) fn derivatives(&mut self) -> TokenStream {
+        let (facade, kernels) = (self.facade, self.kernels);
+        let Some(Derivatives { kernel, inputs }) = &kernels.derivatives else {
+            return quote!(type Derivatives<__S: #facade::Scalar> = [__S; 0];);
+        };
+        let (none, unpack, arguments) = (TokenStream::new(), Self::unpack(), arguments());
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.of_state("__derivatives", kernel, &none, &none);
+        let length = outputs.len();
+        quote! {
+            type Derivatives<__S: #facade::Scalar> = [__S; #length];
+            const DERIVED_BY: ::core::option::Option<&'static [usize]> =
+                ::core::option::Option::Some(&[#(#inputs),*]);
+
+            fn derivatives<__S: #facade::Scalar>(#arguments) -> Self::Derivatives<__S> {
+                #unpack
+                #statements
+                [#(#outputs),*]
             }
         }
     }

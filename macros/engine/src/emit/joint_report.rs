@@ -7,6 +7,7 @@ use quote::quote;
 use super::report::{evaluation_name, kernel, state_infos, terms_name};
 use super::writer::Writer;
 use crate::coordinates::kernels::{JointKernels, Meaning};
+use crate::model::Asked;
 use crate::symbolic::arena::Stage;
 use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
@@ -80,11 +81,15 @@ impl Writer<'_, JointKernels> {
     /// Word and cost of what is asked for.
     fn asked_counts(&self) -> Vec<(String, Count)> {
         let asked = self.kernels.joint_rates.iter().flat_map(|of| &of.asked);
-        let asked = asked.map(|(asked, Kernel { arena, outputs })| {
+        let asked = asked.map(|(asked, kernel)| (*asked, kernel));
+        let derivatives = self.kernels.derivatives.iter();
+        let derivatives = derivatives.map(|found| (Asked::Derivatives, &found.kernel));
+        let all = asked.chain(derivatives);
+        let counts = all.map(|(asked, Kernel { arena, outputs })| {
             let name = asked.word().into();
             (name, count(arena, outputs, Stage::State))
         });
-        asked.collect()
+        counts.collect()
     }
 
     pub(super) fn report(&self) -> TokenStream {

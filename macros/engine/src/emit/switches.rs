@@ -5,12 +5,13 @@ use quote::quote;
 
 use super::straight_line::StraightLine;
 use super::writer::Writer;
-use crate::model::Model;
+use crate::model::{Asked, Model};
 use crate::syntax::words::local;
 
-/// The functions by which kernels read sides; nothing where no law switches.
+/// The functions by which kernels read sides; nothing where no law switches. Derivatives of
+/// transitions have sides as well.
 pub(super) fn functions(model: &Model, facade: &TokenStream) -> TokenStream {
-    if !model.has_sides() {
+    if !model.has_sides() && !model.asked.contains(&Asked::Derivatives) {
         return TokenStream::new();
     }
     quote! {

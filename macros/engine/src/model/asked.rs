@@ -14,16 +14,19 @@ pub enum Asked {
     Coriolis,
     /// The axes of the joints, of which Jacobians of points are made.
     Jacobian,
+    /// The accelerations with their derivatives.
+    Derivatives,
 }
 
 impl Asked {
     /// What `kernels` takes.
-    pub const ALL: [(&'static str, Self); 5] = [
+    pub const ALL: [(&'static str, Self); 6] = [
         ("mass", Self::Mass),
         ("inverse", Self::Inverse),
         ("gravity", Self::Gravity),
         ("coriolis", Self::Coriolis),
         ("jacobian", Self::Jacobian),
+        ("derivatives", Self::Derivatives),
     ];
 
     /// The word for it.

@@ -30,11 +30,14 @@ pub enum Function {
 pub struct Curve {
     /// The place in [`Model::splines`](super::Model::splines).
     pub spline: u32,
-    /// 0 for the value, at most 2.
+    /// 0 for the value, at most [`Curve::HIGHEST`] in what is generated.
     pub derivative: u8,
 }
 
 impl Curve {
+    /// The last derivative that is continuous.
+    pub const HIGHEST: u8 = 2;
+
     /// The next derivative.
     #[must_use]
     pub const fn derived(self) -> Self {

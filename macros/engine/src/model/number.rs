@@ -53,6 +53,8 @@ pub struct Symbol {
     pub scalar: Option<TokenStream>,
     /// The places of the run-time values that it depends on, in order.
     pub values: Vec<usize>,
+    /// Where it is a run-time value as it is: the place of that.
+    pub itself: Option<usize>,
     /// What it is at their typical values; `None` where one of them has none, and for a constant by
     /// its path.
     pub like: Option<f64>,

@@ -60,5 +60,6 @@ pub mod scene;
 pub mod separation;
 pub(crate) mod start;
 pub(crate) mod table;
+pub(crate) mod tangent;
 pub mod tape;
 pub mod vector;

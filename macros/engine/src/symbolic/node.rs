@@ -243,7 +243,7 @@ impl Node {
             Self::Above(a, b) => Key::new(17, two(a, b)),
             Self::Below(a, b) => Key::new(18, two(a, b)),
             Self::Curve(curve, a) => {
-                let kind = 13 + curve.derivative as u64;
+                let kind = 19 + curve.derivative as u64;
                 Key::new(kind, (curve.spline as u64) << 32 | a.0 as u64)
             }
         }

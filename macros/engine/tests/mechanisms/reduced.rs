@@ -5,10 +5,11 @@ use std::f64::consts::TAU;
 
 use holonom_engine::coordinates::beginning::Beginning;
 use holonom_engine::coordinates::candidates::{Method, Strategy};
+use holonom_engine::coordinates::elimination::Solution;
 use holonom_engine::coordinates::freedom::Freedom;
 use holonom_engine::coordinates::from_bodies::from_bodies;
 use holonom_engine::coordinates::links::Links;
-use holonom_engine::coordinates::system::{Reduced, Solution};
+use holonom_engine::coordinates::system::Reduced;
 use holonom_engine::model::{BodyKind, Model};
 use holonom_engine::plan::eliminate::Check;
 use holonom_engine::plan::system::Terms;

@@ -1,0 +1,411 @@
+//! `kernels = [derivatives]`: the accelerations with their derivatives as a kernel, against numbers
+//! that carry derivatives.
+
+use core::array::from_fn;
+use core::f64::consts::PI;
+
+use holonom::independent::{IndependentCoordinates, Linearised};
+use holonom::mechanism::{HasInverse, HasMassMatrix, ValueHandle};
+use holonom::prelude::*;
+use holonom::spline::Spline;
+use holonom_models::{Panda, Ur5};
+
+use crate::derivatives_reference as pinocchio;
+
+/// A friction that falls with the rate.
+static FRICTION: Spline<4> = Spline::natural([-3.0, -1.0, 1.0, 3.0], [0.4, 0.6, -0.6, -0.4]);
+
+/// The same mechanism twice: with the kernel and without.
+macro_rules! twins {
+    // Of a plane loop some rows follow from the others.
+    ($with:ident, $without:ident, $fields:tt) => {
+        twins! { @$with [mass, inverse, derivatives] $fields }
+        twins! { @$without [mass, inverse] $fields }
+    };
+    (@$name:ident [$($kernel:ident),*] { $($fields:tt)* }) => {
+        #[derive(Clone, Copy, Debug, Mechanism)]
+        #[mechanism(gravity = [0.3, -0.2, -9.81], redundant = "drop", coordinates = "joints", kernels = [$($kernel),*])]
+        struct $name { $($fields)* }
+    };
+}
+
+// All that a tree may have: a hull that floats, arms about parallel axes that are counted together
+// and backwards, a slide, a thread, a ball, and laws with every function.
+twins!(Crawler, Plain, {
+    #[param(like = 0.7)]
+    long: f64,
+    #[input]
+    torque: f64,
+    #[input]
+    push: f64,
+    #[input]
+    pull: f64,
+    #[body(mass = 3.0, inertia = [[0.5, 0.1, 0.0], [0.1, 0.7, -0.1], [0.0, -0.1, 0.6]], free)]
+    hull: Body,
+    #[body(mass = 1.0, inertia = [0.02, 0.1, 0.09], position = [0.2 + 0.5 * long, 0.0, 0.1])]
+    upper: Body,
+    #[joint(between = [hull, upper], point = [0.2, 0.0, 0.1], axis = [0.0, 1.0, 0.0])]
+    shoulder: Revolute,
+    #[body(mass = 0.8, inertia = [0.01, 0.06, 0.07], position = [0.5 + long, 0.05, 0.1])]
+    lower: Body,
+    #[joint(between = [lower, upper], point = [0.2 + long, 0.0, 0.1], axis = [0.0, 1.0, 0.0])]
+    elbow: Revolute,
+    #[body(mass = 0.4, inertia = [0.01, 0.02, 0.015], position = [0.9 + long, 0.0, 0.2])]
+    slide: Body,
+    #[joint(between = [lower, slide], point = [0.5 + long, 0.0, 0.1], axis = [0.6, 0.0, 0.8])]
+    rail: Prismatic,
+    #[body(mass = 0.3, inertia = [0.004, 0.005, 0.006], position = [-0.3, 0.2, 0.0])]
+    nut: Body,
+    #[joint(between = [hull, nut], point = [-0.3, 0.2, 0.0], axis = [0.0, 0.6, 0.8], pitch = 0.05)]
+    thread: Screw,
+    #[body(mass = 0.5, inertia = [0.01, 0.012, 0.02], position = [-0.3, -0.4, 0.3])]
+    tail: Body,
+    #[joint(between = [hull, tail], point = [-0.2, -0.2, 0.2])]
+    socket: Spherical,
+    #[force(between = [hull, upper], axis = [0.0, 1.0, 0.0], moment = torque)]
+    motor: TorsionalActuator,
+    #[force(between = [upper, lower], axis = [0.0, 1.0, 0.0],
+        moment = FRICTION(rate) - exp(0.3 * angle) + 2.0 * long * push)]
+    brake: TorsionalActuator,
+    #[force(between = [lower, slide], head = [0.3 + long, 0.1, 0.1], tail = [0.9 + long, 0.1, 0.2],
+        force = 5.0 * smooth_step(2.0 * length - 0.7) * sin(time) - sqrt(1.0 + rate * rate) + atan(length))]
+    piston: Actuator,
+    #[force(between = [ground, slide], head = [0.0, 1.0, 0.5], tail = [0.9 + long, 0.1, 0.2],
+        stiffness = 40.0, damping = 3.0, free_length = 0.5)]
+    spring: SpringDamper,
+    #[force(between = [hull, tail], damping = 0.2)]
+    damper: RotationalDamper,
+    #[force(between = [tail], point = [-0.5, -0.5, 0.3], force = [pull, 0.0, 1.0])]
+    jet: FollowerForce,
+});
+
+// A five-bar in a plane, a rod in space from it to a slide, a driver that moves a weight along.
+twins!(Looped, PlainLooped, {
+    #[param(like = 0.3)]
+    crank: f64,
+    #[input]
+    torque: f64,
+    #[input]
+    wind: f64,
+    #[body(mass = 1.0, inertia = [0.02, 0.03, 0.04], position = [-0.05, 0.14, 0.0])]
+    left: Body,
+    #[joint(between = [ground, left], point = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    motor_hinge: Revolute,
+    #[body(mass = 0.8, inertia = [0.01, 0.02, 0.02], position = [0.45, 0.14, 0.0])]
+    right: Body,
+    #[joint(between = [ground, right], point = [0.4, 0.0, 0.0], axis = [0.0, 0.0, 1.0])]
+    other_hinge: Revolute,
+    #[body(mass = 0.5, inertia = [0.01, 0.01, 0.015], position = [0.05, 0.39, 0.05])]
+    upper: Body,
+    #[joint(between = [left, upper], point = [-0.1, 0.28, 0.0], axis = [0.0, 0.0, 1.0])]
+    elbow: Revolute,
+    #[body(mass = 0.6, inertia = [0.01, 0.01, 0.015], position = [0.35, 0.39, -0.05])]
+    wide: Body,
+    #[joint(between = [right, wide], point = [0.5, 0.28, 0.0], axis = [0.0, 0.0, 1.0])]
+    knee: Revolute,
+    #[joint(between = [upper, wide], point = [0.2, 0.5, 0.0], axis = [0.0, 0.0, 1.0])]
+    top: Revolute,
+    #[body(mass = 0.7, inertia = [0.02, 0.02, 0.02], position = [0.2, 0.5, 0.6])]
+    slide: Body,
+    #[joint(between = [ground, slide], point = [0.2, 0.5, 0.6], axis = [0.0, 0.6, 0.8])]
+    rail: Prismatic,
+    #[joint(between = [upper, slide], head = [0.1, 0.4, 0.1], tail = [0.2, 0.5, 0.6])]
+    rod: Distance,
+    #[body(mass = 0.2, inertia = [0.001, 0.001, 0.002], position = [0.3, 0.5, 0.7])]
+    weight: Body,
+    #[joint(between = [slide, weight], point = [0.3, 0.5, 0.7], axis = [1.0, 0.0, 0.0])]
+    track: Prismatic,
+    #[joint(between = [slide, weight], point = [0.3, 0.5, 0.7], axis = [1.0, 0.0, 0.0],
+        motion = crank * sin(2.0 * time))]
+    drive: DisplacementDriver,
+    #[force(between = [ground, left], axis = [0.0, 0.0, 1.0], moment = torque - 0.1 * rate)]
+    motor: TorsionalActuator,
+    #[force(between = [ground, wide], point = [0.3, 0.4, 0.0], force = [wind, 2.0, 0.0])]
+    gust: PointForce,
+    #[force(between = [ground, slide], head = [1.0, 1.0, 1.0], tail = [0.2, 0.5, 0.6], stiffness = 30.0, free_length = 0.4)]
+    spring: SpringDamper,
+});
+
+holonom::joint! {
+    /// A follower on the profile of a cam.
+    joint Cam(i, j, k; axis: Axis, point: Point, slide: Axis, lift: Law(phi)) {
+        dot(k.slide, j.point - k.point) - lift(angle(k, i, axis));
+    }
+}
+
+/// The lift of a cam.
+static LIFT: Spline<5> = Spline::periodic(
+    [0.0, 0.5 * PI, PI, 1.5 * PI, 2.0 * PI],
+    [0.0, 0.01, 0.02, 0.01, 0.0],
+);
+
+/// A spline in the equation of a joint: its third derivative jumps.
+#[derive(Clone, Copy, Debug, Mechanism)]
+#[mechanism(coordinates = "joints", kernels = [mass, inverse, derivatives])]
+struct Camshaft {
+    #[body(mass = 1.0, inertia = [0.02, 0.03, 0.04])]
+    shaft: Body,
+    #[joint(between = [ground, shaft], point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0])]
+    hinge: Revolute,
+    #[body(mass = 0.4, inertia = [0.02, 0.03, 0.05], position = [0.0, 0.0, 0.1])]
+    tappet: Body,
+    #[joint(between = [ground, tappet], point = [0.0, 0.0, 0.1], axis = [0.0, 0.0, 1.0])]
+    guide: Prismatic,
+    #[joint(between = [shaft, tappet, ground], axis = [0.0, 1.0, 0.0], point = [0.0, 0.0, 0.1],
+        slide = [0.0, 0.0, 1.0], lift = LIFT(phi))]
+    cam: Cam,
+}
+
+/// The largest difference of two matrices, over the largest entry.
+fn off(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let largest = b.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let pairs = a.iter().zip(b);
+    pairs.fold(0.0_f64, |most, (x, y)| most.max((x - y).abs())) / largest.max(f64::MIN_POSITIVE)
+}
+
+fn parts<const N: usize, const K: usize, const P: usize>(
+    linear: &Linearised<N, K, P>,
+) -> [&[f64]; 5] {
+    [
+        linear.rates_by_positions.as_slice(),
+        linear.by_positions.as_slice(),
+        linear.by_rates.as_slice(),
+        linear.by_efforts.as_slice(),
+        linear.by_values.as_slice(),
+    ]
+}
+
+/// Numbers from -1 to 1, always the same.
+fn noise(seed: usize) -> impl FnMut() -> f64 {
+    let mut place = seed as f64;
+    move || {
+        place += 1.0;
+        (12.9898 * place).sin() * (0.7 * place * place).cos()
+    }
+}
+
+/// Of a state the chosen coordinates and rates of another mechanism are the same.
+fn compared<A, B, const N: usize, const K: usize>(
+    with: (
+        &IndependentCoordinates<A, N>,
+        &A::JointState<f64>,
+        [ValueHandle<A>; K],
+    ),
+    without: (
+        &IndependentCoordinates<B, N>,
+        &B::JointState<f64>,
+        [ValueHandle<B>; K],
+    ),
+) -> Result<(), Fault>
+where
+    A: HasInverse + HasMassMatrix,
+    B: HasInverse + HasMassMatrix,
+{
+    assert!(A::DERIVED_BY.is_some() && B::DERIVED_BY.is_none());
+    let found = with.0.linearise(with.1, with.2, |_| [])?;
+    let wanted = without.0.linearise(without.1, without.2, |_| [])?;
+    for (part, (found, wanted)) in parts(&found).into_iter().zip(parts(&wanted)).enumerate() {
+        let off = off(found, wanted);
+        assert!(off < 1e-13, "part {part}: {off:e}");
+    }
+    Ok(())
+}
+
+#[test]
+fn everything_that_a_tree_may_have() -> Result<(), Fault> {
+    let (a, b) = (Crawler::new(0.7)?, Plain::new(0.7)?);
+    let (h, g) = (Crawler::HANDLES, Plain::HANDLES);
+    // A plain input has a column; one in a product is left to numbers that carry derivatives.
+    let columns = Crawler::DERIVED_BY.map(<[usize]>::len);
+    assert_eq!(columns, Some(2));
+    for seed in 0..20 {
+        let mut noise = noise(31 * seed);
+        let q: [f64; 4] = from_fn(|_| 1.5 * noise());
+        let v: [f64; 13] = from_fn(|_| noise());
+        let inputs: [f64; 3] = from_fn(|_| 5.0 * noise());
+        let time = 3.0 * noise();
+        macro_rules! standing {
+            ($mechanism:expr, $h:expr) => {{
+                let hull: [Motion<_>; 6] = from_fn(|k| Motion::free($h.hull, k));
+                let [x, y, z, r, s, t] = hull;
+                let [i, j, k] = from_fn(|k| Motion::of($h.socket, k));
+                let [a, b] = [$h.shoulder, $h.elbow].map(|joint| Motion::of(joint, 0));
+                let (c, d) = (Motion::of($h.rail, 0), Motion::of($h.thread, 0));
+                let chosen = [x, y, z, r, s, t, a, b, c, d, i, j, k];
+                let mut space = $mechanism.coordinates(chosen)?;
+                space.set_time(time);
+                for (handle, value) in [$h.torque, $h.push, $h.pull].into_iter().zip(inputs) {
+                    space.set_value(handle, value)?;
+                }
+                let mut bodies = $mechanism.described_state::<f64>()?;
+                let turn = nalgebra::Quaternion::new(0.5, q[0], q[1], 0.3).normalize();
+                $mechanism.set_relative_orientation(&mut bodies, $h.socket, turn)?;
+                $mechanism.set_angle(&mut bodies, $h.shoulder, q[0])?;
+                $mechanism.set_angle(&mut bodies, $h.elbow, q[1])?;
+                $mechanism.set_displacement(&mut bodies, $h.rail, 0.2 * q[2])?;
+                $mechanism.set_angle(&mut bodies, $h.thread, 5.0 * q[3])?;
+                let mut state = space.of_bodies(&bodies);
+                state = space.with_rates(&state, v)?;
+                (space, state)
+            }};
+        }
+        let (with, one) = standing!(a, h);
+        let (without, two) = standing!(b, g);
+        compared(
+            (&with, &one, [h.torque, h.push, h.pull, h.long]),
+            (&without, &two, [g.torque, g.push, g.pull, g.long]),
+        )?;
+        // Readings take numbers that carry derivatives, and the rest is that of the kernel.
+        let found = with.linearise(&one, [h.torque, h.long], |view| [view.position(h.slide).x])?;
+        let wanted =
+            without.linearise(&two, [g.torque, g.long], |view| [view.position(g.slide).x])?;
+        for (found, wanted) in parts(&found).into_iter().zip(parts(&wanted)) {
+            assert!(off(found, wanted) < 1e-13);
+        }
+        assert!((found.c::<26>() - wanted.c::<26>()).amax() < 1e-13);
+        assert!((found.d() - wanted.d()).amax() < 1e-13);
+    }
+    Ok(())
+}
+
+/// In a loop what is not chosen follows: its rates go with the positions.
+#[test]
+fn loops_and_drivers() -> Result<(), Fault> {
+    let (a, b) = (Looped::new(0.3)?, PlainLooped::new(0.3)?);
+    let (h, g) = (Looped::HANDLES, PlainLooped::HANDLES);
+    assert_eq!(Looped::DERIVED_BY.map(<[usize]>::len), Some(2));
+    for seed in 0..20 {
+        let mut noise = noise(17 * seed);
+        let q: [f64; 2] = from_fn(|_| 0.3 * noise());
+        let v: [f64; 2] = from_fn(|_| 2.0 * noise());
+        let inputs: [f64; 2] = from_fn(|_| 5.0 * noise());
+        let time = 3.0 * noise();
+        macro_rules! standing {
+            ($mechanism:expr, $h:expr) => {{
+                let mut space = $mechanism.coordinates(($h.motor_hinge, $h.other_hinge))?;
+                space.set_time(time);
+                for (handle, value) in [$h.torque, $h.wind].into_iter().zip(inputs) {
+                    space.set_value(handle, value)?;
+                }
+                let state = space.state(q, v)?;
+                (space, state)
+            }};
+        }
+        let (with, one) = standing!(a, h);
+        let (without, two) = standing!(b, g);
+        compared(
+            (&with, &one, [h.torque, h.wind, h.crank]),
+            (&without, &two, [g.torque, g.wind, g.crank]),
+        )?;
+    }
+    Ok(())
+}
+
+/// Numbers that carry derivatives are taken where the kernel would need what is not generated.
+#[test]
+fn a_spline_in_the_equation_of_a_joint() -> Result<(), Fault> {
+    assert_eq!(Camshaft::DERIVED_BY, None);
+    let (cam, h) = (Camshaft::default(), Camshaft::HANDLES);
+    let space = cam.coordinates([h.hinge])?;
+    let state = |angle: f64| space.state([angle], [3.0]);
+    let found = space.linearise(&state(0.4)?, [], |_| [])?.by_positions[(0, 0)];
+    let step = 1e-5;
+    let near = [state(0.4 + step)?, state(0.4 - step)?];
+    let [a, b] = near.map(|state| space.forward(&state, [0.0]));
+    let wanted = (a?[0] - b?[0]) / (2.0 * step);
+    assert!(
+        (found - wanted).abs() < 1e-8 * wanted.abs(),
+        "{found} {wanted}"
+    );
+    Ok(())
+}
+
+/// Angles (rad), rates (rad/s) and torques (N m) of `derivatives_reference.py`.
+fn given<const N: usize>() -> [[f64; N]; 3] {
+    [(0.3, 0.2), (0.5, -0.3), (2.0, -0.7)].map(|(first, step)| from_fn(|k| first + step * k as f64))
+}
+
+/// A matrix by its columns, against one by its rows.
+fn same<const N: usize>(what: &str, found: &[f64], wanted: [[f64; N]; N]) {
+    let columns: Vec<f64> = (0..N)
+        .flat_map(|column| wanted.map(|row| row[column]))
+        .collect();
+    let off = off(found, &columns);
+    assert!(off < 1e-12, "{what}: {off:e}");
+}
+
+#[test]
+fn arms_against_pinocchio() -> Result<(), Fault> {
+    let (arm, h) = (Ur5::default(), Ur5::HANDLES);
+    let joints = [h.pan, h.lift, h.elbow, h.wrist_1, h.wrist_2, h.wrist_3];
+    let motors = [
+        h.pan_torque,
+        h.lift_torque,
+        h.elbow_torque,
+        h.wrist_1_torque,
+        h.wrist_2_torque,
+        h.wrist_3_torque,
+    ];
+    let (mut space, [q, v, torques]) = (arm.coordinates(joints)?, given());
+    for (motor, torque) in motors.into_iter().zip(torques) {
+        space.set_value(motor, torque)?;
+    }
+    let linear = space.linearise(&space.state(q, v)?, motors, |_| [])?;
+    same(
+        "positions",
+        linear.by_positions.as_slice(),
+        pinocchio::UR5_BY_POSITIONS,
+    );
+    same("rates", linear.by_rates.as_slice(), pinocchio::UR5_BY_RATES);
+    same(
+        "efforts",
+        linear.by_efforts.as_slice(),
+        pinocchio::UR5_BY_EFFORTS,
+    );
+    same(
+        "motors",
+        linear.by_values.as_slice(),
+        pinocchio::UR5_BY_EFFORTS,
+    );
+
+    let (arm, h) = (Panda::default(), Panda::HANDLES);
+    let joints = [
+        h.joint_1, h.joint_2, h.joint_3, h.joint_4, h.joint_5, h.joint_6, h.joint_7,
+    ];
+    let motors = [
+        h.joint_1_torque,
+        h.joint_2_torque,
+        h.joint_3_torque,
+        h.joint_4_torque,
+        h.joint_5_torque,
+        h.joint_6_torque,
+        h.joint_7_torque,
+    ];
+    let (mut space, [q, v, torques]) = (arm.coordinates(joints)?, given());
+    for (motor, torque) in motors.into_iter().zip(torques) {
+        space.set_value(motor, torque)?;
+    }
+    let linear = space.linearise(&space.state(q, v)?, motors, |_| [])?;
+    same(
+        "positions",
+        linear.by_positions.as_slice(),
+        pinocchio::PANDA_BY_POSITIONS,
+    );
+    same(
+        "rates",
+        linear.by_rates.as_slice(),
+        pinocchio::PANDA_BY_RATES,
+    );
+    same(
+        "efforts",
+        linear.by_efforts.as_slice(),
+        pinocchio::PANDA_BY_EFFORTS,
+    );
+    same(
+        "motors",
+        linear.by_values.as_slice(),
+        pinocchio::PANDA_BY_EFFORTS,
+    );
+    Ok(())
+}
