@@ -115,7 +115,7 @@ fn block(low: [f64; 3], high: [f64; 3], is_hollow: bool) -> Triangles {
     triangles.map(|face| face.map(corner)).collect()
 }
 
-/// An OBJ file that lives as long as its name.
+/// The path of an OBJ file among those that are temporary.
 fn obj(name: &str, triangles: &Triangles) -> String {
     let folder = std::env::temp_dir().join(format!("holonom-meshes-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");

@@ -25,15 +25,15 @@ pub(super) struct Derived<M: JointRates, const N: usize, S: Scalar> {
     rates: usize,
 }
 
-/// The first of the columns by positions, by rates, by efforts and by inputs, behind which those
-/// stand that take away what positions do to the rates of rows; in numbers of rates.
+/// Where the columns by rates, by efforts and by inputs begin, in numbers of rates; those by
+/// positions come first. Behind them all are those that take away what positions do to `Phi'`.
 const BY_RATES: usize = 1;
 const BY_EFFORTS: usize = 2;
 const BY_INPUTS: usize = 3;
 
 impl<M: JointRates, const N: usize, S: Real> Derived<M, N, S> {
-    /// The derivatives at a state; `None` where the kernel was not asked for, and where it would be
-    /// of few digits: where equations that close loops depend on each other, or nearly do.
+    /// The derivatives at a state. `None` where the kernel was not asked for. So it is where
+    /// equations that close loops depend on each other, or nearly do: few digits would be left.
     pub(super) fn of(equations: &Equations<M, N, S>, state: &M::JointState<S>) -> Option<Self> {
         let inputs = M::DERIVED_BY?;
         let rates = M::JointVelocities::<S>::zeros().as_slice().len();

@@ -99,9 +99,12 @@ pub trait JointCoordinates: Mechanism {
     /// their places in [`Report::values`](crate::Report::values).
     const DERIVED_BY: Option<&'static [usize]> = None;
 
-    /// The accelerations of the rates of the joints; then, column by column, their derivatives by
-    /// the position of each, by each rate, by an effort along each, and by the inputs of
-    /// [`JointCoordinates::DERIVED_BY`]. No number where that is `None`.
+    /// The accelerations of the rates of the joints, and behind them the columns of their
+    /// derivatives. Columns are by the position of each, by each rate, by an effort along each, and
+    /// by the inputs of [`JointCoordinates::DERIVED_BY`]. There is no number where that is `None`.
+    ///
+    /// Where equations close loops, a column for each position follows, the rates that take away
+    /// what it adds to `Phi'`; then relative pivots.
     fn derivatives<S: Scalar>(
         _constants: &Self::JointConstants<S>,
         _time: S,

@@ -5,9 +5,10 @@ use core::array::from_fn;
 use core::f64::consts::PI;
 
 use holonom::independent::{IndependentCoordinates, Linearised};
-use holonom::mechanism::{HasInverse, HasMassMatrix, ValueHandle};
+use holonom::mechanism::{HasInverse, HasMassMatrix, JointRates, ValueHandle};
 use holonom::prelude::*;
 use holonom::spline::Spline;
+use holonom::state::Array;
 use holonom_models::{Panda, Ur5};
 
 use crate::derivatives_reference as pinocchio;
@@ -29,8 +30,8 @@ macro_rules! twins {
     };
 }
 
-// All that a tree may have: a hull that floats, arms about parallel axes that are counted together
-// and backwards, a slide, a thread, a ball, and laws with every function.
+// All that a tree may have. A hull floats. Arms about parallel axes are counted together, and
+// backwards. There are a slide, a thread, a ball, and laws with every function.
 twins!(Crawler, Plain, {
     #[param(like = 0.7)]
     long: f64,
@@ -269,6 +270,20 @@ fn everything_that_a_tree_may_have() -> Result<(), Fault> {
     Ok(())
 }
 
+/// The kernel is taken here: as many equations as rates that follow, and no weak pivot.
+fn is_taken<M: JointRates, const N: usize>(
+    space: &IndependentCoordinates<M, N>,
+    state: &M::JointState<f64>,
+    constants: &M::JointConstants<f64>,
+) {
+    let (rates, rows) = (M::JOINT_REPORT.motions.len(), M::JOINT_REPORT.closing.len());
+    assert_eq!(rates, N + rows);
+    let numbers = M::derivatives(constants, space.time(), state);
+    let columns = 4 * rates + M::DERIVED_BY.map_or(0, <[usize]>::len);
+    let pivots = &numbers.as_slice()[rates * (1 + columns)..];
+    assert!(pivots.iter().all(|pivot| pivot.abs() > 1e-3), "{pivots:?}");
+}
+
 /// In a loop what is not chosen follows: its rates go with the positions.
 #[test]
 fn loops_and_drivers() -> Result<(), Fault> {
@@ -294,6 +309,7 @@ fn loops_and_drivers() -> Result<(), Fault> {
         }
         let (with, one) = standing!(a, h);
         let (without, two) = standing!(b, g);
+        is_taken(&with, &one, &Looped::prepare_joints(&a.parameters()?));
         compared(
             (&with, &one, [h.torque, h.wind, h.crank]),
             (&without, &two, [g.torque, g.wind, g.crank]),
@@ -335,9 +351,35 @@ fn same<const N: usize>(what: &str, found: &[f64], wanted: [[f64; N]; N]) {
     assert!(off < 1e-12, "{what}: {off:e}");
 }
 
+/// An arm at the state of `derivatives_reference.py`, against matrices by positions, by rates and
+/// by efforts. A motor is an effort along its axis.
+fn arm<M, const N: usize>(
+    mut space: IndependentCoordinates<M, N>,
+    motors: [ValueHandle<M>; N],
+    [positions, rates, efforts]: [[[f64; N]; N]; 3],
+) -> Result<(), Fault>
+where
+    M: HasInverse + HasMassMatrix,
+{
+    let [q, v, torques] = given();
+    for (motor, torque) in motors.into_iter().zip(torques) {
+        space.set_value(motor, torque)?;
+    }
+    let linear = space.linearise(&space.state(q, v)?, motors, |_| [])?;
+    same("positions", linear.by_positions.as_slice(), positions);
+    same("rates", linear.by_rates.as_slice(), rates);
+    same("efforts", linear.by_efforts.as_slice(), efforts);
+    same("motors", linear.by_values.as_slice(), efforts);
+    Ok(())
+}
+
 #[test]
 fn arms_against_pinocchio() -> Result<(), Fault> {
-    let (arm, h) = (Ur5::default(), Ur5::HANDLES);
+    use pinocchio::{
+        PANDA_BY_EFFORTS, PANDA_BY_POSITIONS, PANDA_BY_RATES, UR5_BY_EFFORTS, UR5_BY_POSITIONS,
+        UR5_BY_RATES,
+    };
+    let h = Ur5::HANDLES;
     let joints = [h.pan, h.lift, h.elbow, h.wrist_1, h.wrist_2, h.wrist_3];
     let motors = [
         h.pan_torque,
@@ -347,29 +389,9 @@ fn arms_against_pinocchio() -> Result<(), Fault> {
         h.wrist_2_torque,
         h.wrist_3_torque,
     ];
-    let (mut space, [q, v, torques]) = (arm.coordinates(joints)?, given());
-    for (motor, torque) in motors.into_iter().zip(torques) {
-        space.set_value(motor, torque)?;
-    }
-    let linear = space.linearise(&space.state(q, v)?, motors, |_| [])?;
-    same(
-        "positions",
-        linear.by_positions.as_slice(),
-        pinocchio::UR5_BY_POSITIONS,
-    );
-    same("rates", linear.by_rates.as_slice(), pinocchio::UR5_BY_RATES);
-    same(
-        "efforts",
-        linear.by_efforts.as_slice(),
-        pinocchio::UR5_BY_EFFORTS,
-    );
-    same(
-        "motors",
-        linear.by_values.as_slice(),
-        pinocchio::UR5_BY_EFFORTS,
-    );
-
-    let (arm, h) = (Panda::default(), Panda::HANDLES);
+    let wanted = [UR5_BY_POSITIONS, UR5_BY_RATES, UR5_BY_EFFORTS];
+    arm(Ur5::default().coordinates(joints)?, motors, wanted)?;
+    let h = Panda::HANDLES;
     let joints = [
         h.joint_1, h.joint_2, h.joint_3, h.joint_4, h.joint_5, h.joint_6, h.joint_7,
     ];
@@ -382,30 +404,6 @@ fn arms_against_pinocchio() -> Result<(), Fault> {
         h.joint_6_torque,
         h.joint_7_torque,
     ];
-    let (mut space, [q, v, torques]) = (arm.coordinates(joints)?, given());
-    for (motor, torque) in motors.into_iter().zip(torques) {
-        space.set_value(motor, torque)?;
-    }
-    let linear = space.linearise(&space.state(q, v)?, motors, |_| [])?;
-    same(
-        "positions",
-        linear.by_positions.as_slice(),
-        pinocchio::PANDA_BY_POSITIONS,
-    );
-    same(
-        "rates",
-        linear.by_rates.as_slice(),
-        pinocchio::PANDA_BY_RATES,
-    );
-    same(
-        "efforts",
-        linear.by_efforts.as_slice(),
-        pinocchio::PANDA_BY_EFFORTS,
-    );
-    same(
-        "motors",
-        linear.by_values.as_slice(),
-        pinocchio::PANDA_BY_EFFORTS,
-    );
-    Ok(())
+    let wanted = [PANDA_BY_POSITIONS, PANDA_BY_RATES, PANDA_BY_EFFORTS];
+    arm(Panda::default().coordinates(joints)?, motors, wanted)
 }

@@ -22,9 +22,12 @@ use crate::symbolic::count::count;
 use crate::symbolic::equations::{Kernel, turning};
 use crate::symbolic::tangent::{Direction, along, with_inputs};
 
-/// The kernel: accelerations of the joints' rates; then, column by column, their derivatives by
-/// positions, rates, efforts and inputs; where rows close loops, what rates the accelerations of
-/// which would take away what each position adds to `Phi'`; relative pivots.
+/// The kernel. Its outputs are, in this order:
+///
+/// - the accelerations of the joints' rates;
+/// - column by column their derivatives by positions, by rates, by efforts and by inputs;
+/// - where rows close loops, for each position `x` with `D x = -dPhi'/dq`;
+/// - relative pivots.
 #[derive(Clone, Debug)]
 pub struct Derivatives {
     /// The outputs.
@@ -58,8 +61,8 @@ enum Road {
 }
 
 impl Derivatives {
-    /// By the road that has fewer operations; `None` where they are not asked for, and where a row
-    /// has a spline: its `gamma` has the last derivative of that which is continuous.
+    /// By the road that has fewer operations. `None` where they are not asked for. So it is where a
+    /// row has a spline: its `gamma` has the second derivative of that, and the third one jumps.
     pub(super) fn new(model: &Model, reduced: &Reduced) -> Option<Self> {
         if !model.asked.contains(&Asked::Derivatives) {
             return None;

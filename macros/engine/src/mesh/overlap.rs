@@ -1,15 +1,15 @@
 //! Whether a surface encloses nothing twice, and nothing less than once: how often it turns around
 //! points beside it, once or not at all.
 //!
-//! That is looked at on both sides of triangles all over the surface. Surfaces that touch pass, and
-//! so does what overlaps by less than a hundredth of a triangle.
+//! That is looked at on both sides of some triangles, all over the surface. Surfaces that touch
+//! pass. So does what overlaps by less than a hundredth of a triangle, or far from these places.
 
 use std::f64::consts::TAU;
 
 use super::bulk::determinant;
 use super::surface::{Point, Surface, Triangle};
 
-/// Solid angles, at most: they are computed by unoptimised code, a million in some two seconds.
+/// Solid angles, at most: unoptimised code computes a million in some second.
 const ANGLES: usize = 1_200_000;
 
 /// Places on the surface by number, and as many by area, at least and at most.

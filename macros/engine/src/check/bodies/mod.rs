@@ -172,6 +172,7 @@ impl Reader<'_, '_> {
             "angular_velocity",
             "shape",
             "shapes",
+            "mesh",
             "density",
             AS_GIVEN,
         ] {
