@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use holonom::mechanism::{BodyKind, ElementPlace, JointInfo};
 use holonom::nalgebra::{Unit, UnitQuaternion, Vector3};
-use holonom::{Mechanism, Real, View};
+use holonom::{BodyHandle, Mechanism, Real, View};
 
 use crate::page::{Marker, Rack, Wheel};
 use crate::subject::Subject;
@@ -110,13 +110,21 @@ impl<'a, S: Real, M: Mechanism> Row<'a, S, M> {
         ratio().unwrap_or(f64::NAN)
     }
 
-    /// The way of the rack (m) over the angle of the pinion.
+    /// The way of the rack (m) over the angle of the pinion, whose hub may turn about its centre of
+    /// mass.
     fn radius(&self) -> f64 {
         let radius = || {
             let pinion = self.along(0, "axis", true)?;
             let rack = self.along(1, "slide", false);
-            let rack = rack.or_else(|| Some(-self.along(2, "slide", false)?))?;
-            Some(-pinion / rack)
+            let rack = rack.or_else(|| Some(-self.along(0, "slide", false)?))?;
+            let marker = |name| Some(self.view.marker(self.marker(0, name)?).map(Real::to_f64));
+            let centre = self
+                .view
+                .pose(BodyHandle::new(self.info.bodies[0]?))
+                .position;
+            let arm = marker("hub")? - centre.map(Real::to_f64);
+            let lever = arm.cross(&marker("slide")?).dot(&marker("axis")?);
+            Some(-pinion / rack - lever)
         };
         radius().unwrap_or(f64::NAN)
     }

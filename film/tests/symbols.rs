@@ -207,10 +207,10 @@ fn gears_mesh_in_every_frame() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A pinion on a rack below it, and a pair of bevel gears.
+/// A pinion on a rack below it, and a pair of bevel gears. The pinion is not balanced.
 #[derive(Mechanism)]
 struct Workshop {
-    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1])]
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.02, 0.03, 0.0])]
     pinion: Body,
     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, -0.1, 0.0])]
     rack: Body,
@@ -222,7 +222,7 @@ struct Workshop {
     guide: Prismatic,
     #[joint(between = [ground, shaft], point = [0.4, 0.0, -0.3], axis = [1.0, 0.0, 0.0])]
     seat: Revolute,
-    #[joint(between = [pinion, rack, ground], axis = [0.0, 0.0, 1.0], point = [0.0, -0.1, 0.0], slide = [1.0, 0.0, 0.0], radius = 0.1)]
+    #[joint(between = [pinion, rack, ground], axis = [0.0, 0.0, 1.0], hub = [0.0, 0.0, 0.0], point = [0.0, -0.1, 0.0], slide = [1.0, 0.0, 0.0], radius = 0.1)]
     teeth: RackAndPinion,
     #[joint(between = [pinion, shaft, ground], axis_i = [0.0, 0.0, 1.0], axis_j = [1.0, 0.0, 0.0], ratio = 0.75)]
     bevel: Gear,

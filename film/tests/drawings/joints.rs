@@ -168,7 +168,7 @@ const CELLS: [Cell; 24] = [
         pen.word("o", v(0.0, 22.0, 44.0), [5.0, -2.0], "axis_j");
         pen.word("s", v(0.0, 8.0, -50.0), [-28.0, 0.0], "ratio = -1/2");
     }),
-    ("RackAndPinion", "axis, point, slide, radius", |pen| {
+    ("RackAndPinion", "axis, hub, point, slide, radius", |pen| {
         pen.block(Of::K, v(-4.0, 0.0, -33.0), v(14.0, 56.0, 3.0));
         pen.block(Of::J, v(0.0, 0.0, -24.0), v(6.0, 48.0, 6.0));
         for tooth in -6..=6 {
@@ -182,6 +182,7 @@ const CELLS: [Cell; 24] = [
         pen.axis(v(-30.0, 0.0, 9.0), v(46.0, 0.0, 9.0));
         pen.axis(v(6.0, -62.0, -20.0), v(6.0, 72.0, -20.0));
         pen.dot(v(6.0, 0.0, -20.0));
+        pen.dot(v(12.0, 0.0, 9.0));
         pen.turn(v(8.0, 0.0, 9.0), X, 31.0 * Z, [-50.0, 50.0]);
         pen.way(v(12.0, -24.0, -44.0), v(12.0, 24.0, -44.0));
         pen.word("o", v(46.0, 0.0, 9.0), [-30.0, -4.0], "axis");

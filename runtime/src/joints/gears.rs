@@ -16,13 +16,26 @@ crate::joint! {
 }
 
 crate::joint! {
-    /// A pinion `i` that turns on the carrier `k` about `axis`, and a rack `j` that slides on it
-    /// along `slide`: the point of the rack moves by `radius` (m) times the angle of the pinion.
-    /// Negative where the rack moves against `slide` as the pinion turns right-handed about `axis`.
+    /// A pinion `i` that turns on the carrier `k` about the line along `axis` through `hub`, and a
+    /// rack `j` that slides on it along `slide`: the rack moves away from the hub by `radius` (m)
+    /// times the angle of the pinion. Negative where the rack moves against `slide` as the pinion
+    /// turns right-handed about `axis`. So does a drum `i` with its load `j` on a rope that stays
+    /// taut.
+    ///
+    /// Rack and pinion push each other along `slide`, at `point`; where they meet there, the
+    /// carrier feels nothing of it, and the bearing of the pinion carries the force.
     ///
     /// Only this equation: a `Revolute` of the pinion and a `Prismatic` of the rack with `k`, which
     /// may be the ground, say the rest. Turns are counted by an auxiliary variable of the state.
-    pub joint RackAndPinion(i, j, k; axis: Axis, point: Point, slide: Axis, radius: Length) {
-        dot(k.slide, j.point - k.point) - radius * angle(k, i, axis);
+    pub joint RackAndPinion(
+        i, j, k;
+        axis: Axis,
+        hub: Point,
+        point: Point,
+        slide: Axis,
+        radius: Length,
+    ) {
+        let far = dot(k.slide, j.point - i.hub);
+        far - initial(far) - radius * angle(k, i, axis);
     }
 }

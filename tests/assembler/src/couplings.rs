@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 use crate::assembler::Assembler;
 use crate::bodies::BodyId;
 use crate::joints::{Joint, Row};
+use crate::laws::Motion;
 use crate::library::{along, coincidence, joint, unit};
 use crate::scalars::Scalar;
 
@@ -76,25 +77,34 @@ impl Joint {
         Self::new([i, j, k], [Vector3::zeros(); 3], [row])
     }
 
-    /// `slide_k . (P_j - P_k) - radius theta` with `theta` the angle of the pinion `i` against the
-    /// carrier `k` about `axis`, `j` the rack: 1 row.
+    /// `slide_k . (P_j - H_i) - radius theta`, less what it is in the reference configuration, with
+    /// the point `H` of the pinion `i`, `P` of the rack `j`, and `theta` the angle of the pinion
+    /// against the carrier `k` about `axis`: 1 row.
     #[must_use]
     pub fn rack_and_pinion(
         scene: &Assembler,
         [i, j, k]: [BodyId; 3],
         axis: [f64; 3],
-        point: [f64; 3],
+        [hub, point]: [[f64; 3]; 2],
         slide: [f64; 3],
         radius: f64,
     ) -> Self {
-        let row = Row::combination([
-            (1.0, along(scene, [k, j], point, point, slide)),
-            (-radius, Scalar::Angle(scene.angle([k, i], axis))),
-        ]);
+        let far = Scalar::Along {
+            axis: scene.vector(k, unit(slide).into()),
+            points: [scene.point(i, hub), scene.point(j, point)],
+        };
+        let initial = unit(slide).dot(&(Vector3::from(point) - Vector3::from(hub)));
+        let row = Row::Combination {
+            terms: vec![
+                (1.0, far),
+                (-radius, Scalar::Angle(scene.angle([k, i], axis))),
+            ],
+            motion: Motion::Constant(initial),
+        };
         let bodies = [i, j, k];
         Self::new(
             bodies,
-            bodies.map(|body| scene.to_body_point(body, point)),
+            bodies.map(|body| scene.to_body_point(body, hub)),
             [row],
         )
     }

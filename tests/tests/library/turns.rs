@@ -8,7 +8,7 @@ use holonom::joints::{Gear, Prismatic, RackAndPinion, Revolute, Screw};
 use holonom::prelude::*;
 use holonom::{StateParts, state::Array};
 use holonom_assembler::accuracy::assert_close;
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 /// The rate of the shaft that is set going (rad/s): a hundred turns in ten seconds.
 const RATE: f64 = 20.0 * core::f64::consts::PI;
@@ -60,6 +60,7 @@ struct Train {
     #[joint(
         between = [pinion, rack, frame],
         axis = [0.0, 0.0, 1.0],
+        hub = [0.0, 0.1, 0.0],
         point = [0.1, 0.2, 0.0],
         slide = [1.0, 0.0, 0.0],
         radius = -0.002
@@ -226,6 +227,19 @@ fn gears_and_racks_keep_their_ratio_on_a_frame_that_turns_for_a_hundred_turns() 
         let scale = on_wheel.moment.norm().max(1e-3);
         assert!((on_pinion.moment - 0.4 * on_wheel.moment).norm() < 1e-8 * scale);
         assert!((on_pinion.moment + on_wheel.moment + on_frame.moment).norm() < 1e-8 * scale);
+        // Rack and pinion push each other, and the bearing carries it. The rack is 0.1 m beside
+        // the hub, not 0.002 m as its radius says: the frame holds against the rest.
+        let on = |body| sample.reaction(handles.mesh, body).expect("regular");
+        let [on_pinion, on_rack, on_frame] = [handles.pinion, handles.rack, handles.frame].map(on);
+        let turn = UnitQuaternion::new_normalize(sample.pose(handles.rack).orientation);
+        let along = turn * Vector3::x();
+        let push = on_rack.force.dot(&along);
+        let scale = push.abs().max(1e-3);
+        assert!((on_rack.force - push * along).norm() < 1e-8 * scale);
+        assert!((on_pinion.force + on_rack.force).norm() < 1e-8 * scale);
+        assert!(on_frame.force.norm() < 1e-8 * scale);
+        assert!((on_pinion.moment.z - 0.002 * push).abs() < 1e-8 * scale);
+        assert!((on_frame.moment.z - (0.1 - 0.002) * push).abs() < 1e-8 * scale);
     });
     assert!(turned > 90.0 * TAU, "{turned}");
 }

@@ -257,10 +257,11 @@ impl Generator {
             ];
             return Some(("Gear", entries));
         }
-        let at = self.point();
+        let (hub, at) = (self.point(), self.point());
         let entries = vec![
             self.axis("axis", one, bodies),
             self.axis("slide", other, bodies),
+            ("hub".into(), self.written_point(hub, bodies)),
             ("point".into(), self.written_point(at, bodies)),
             ("radius".into(), self.number(ratio)),
         ];

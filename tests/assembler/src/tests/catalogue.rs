@@ -184,10 +184,14 @@ pub(super) fn catalogue() -> Vec<Entry> {
         entry!("Gear", 3, |s, b, d| Joint::gear(s, b, d.a.into(), d.b.into(), -d.number),
             |at, d, _| vec![angle(&at[2], &at[1], d.b) + d.number * angle(&at[2], &at[0], d.a)]),
         entry!("RackAndPinion", 3,
-            |s, b, d| Joint::rack_and_pinion(s, b, d.a.into(), d.head.into(), d.b.into(), d.number),
-            |at, d, _| vec![
-                along(&at[2], &at[1], d.b, d.head, d.head) - d.number * angle(&at[2], &at[0], d.a),
-            ]),
+            |s, b, d| {
+                let points = [d.tail.into(), d.head.into()];
+                Joint::rack_and_pinion(s, b, d.a.into(), points, d.b.into(), d.number)
+            },
+            |at, d, _| {
+                let far = (at[2].turn * d.b).dot(&(at[1].p(d.head) - at[0].p(d.tail)));
+                vec![far - d.b.dot(&(d.head - d.tail)) - d.number * angle(&at[2], &at[0], d.a)]
+            }),
         entry!("Perpendicular1", 2, |s, b, d| Joint::perpendicular1(s, two(b), d.a.into(), d.b.into()),
             |at, d, _| vec![(at[0].turn * d.a).dot(&(at[1].turn * d.b))]),
         entry!("Perpendicular2", 2,

@@ -103,7 +103,7 @@ fn gears_and_racks_turn_by_their_ratio() {
         &scene,
         [j, rack, GROUND],
         axes[1],
-        [0.1; 3],
+        [[0.0; 3], [0.1; 3]],
         [0.0, 2.0, 0.0],
         0.3,
     ));

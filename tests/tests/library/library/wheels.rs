@@ -11,8 +11,8 @@ pub(super) fn entries() -> Vec<Entry> {
             |s, b, d| Joint::gear(s, b, d.a, d.b, d.number),
         },
         entry! {
-            1 RackAndPinion { axis = a, point = head, slide = b, radius = number },
-            |s, b, d| Joint::rack_and_pinion(s, b, d.a, d.head, d.b, d.number),
+            1 RackAndPinion { axis = a, hub = tail, point = head, slide = b, radius = number },
+            |s, b, d| Joint::rack_and_pinion(s, b, d.a, [d.tail, d.head], d.b, d.number),
         },
     ]
 }
