@@ -159,6 +159,11 @@ impl<S: Scalar, const N: usize> Scalar for Forward<S, N> {
     #[cfg_attr(not(debug_assertions), inline)]
     fn reciprocal(self) -> Self {
         let value = self.value.reciprocal();
+        if S::SEVEN_DIGITS {
+            // The square of a large mass is beyond the range of `f32`.
+            let slopes = self.derivatives.map(|slope| -(slope * value) * value);
+            return Self::new(value, slopes);
+        }
         self.with(value, -(value * value))
     }
 
