@@ -150,6 +150,8 @@ impl<S: Scalar, const N: usize> Neg for Forward<S, N> {
 }
 
 impl<S: Scalar, const N: usize> Scalar for Forward<S, N> {
+    const IS_WIDE: bool = N > 1;
+
     #[inline]
     fn constant(value: f64) -> Self {
         Self::fixed(S::constant(value))

@@ -122,6 +122,7 @@ impl<T: Real, const L: usize> Neg for Lanes<T, L> {
 impl<T: Real, const L: usize> Scalar for Lanes<T, L> {
     const SEVEN_DIGITS: bool = T::SEVEN_DIGITS;
     const HAS_LANES: bool = true;
+    const IS_WIDE: bool = true;
 
     #[inline(always)]
     fn constant(value: f64) -> Self {
@@ -218,12 +219,12 @@ impl<T: Real, const L: usize> Scalar for Lanes<T, L> {
         let small = |angle: &Self| angle.all(|x| x.abs() < bound);
         let mut turns = [[Self::splat(T::zero()); 2]; N];
         if angles.iter().fold(true, |all, angle| all & small(angle)) {
-            for (turn, &angle) in turns.iter_mut().zip(angles) {
-                *turn = if T::SEVEN_DIGITS {
-                    versine::of_small(angle, &versine::THREE, versine::three)
+            for (turn, angle) in turns.iter_mut().zip(angles) {
+                if N > 1 {
+                    of_small_apart(angle, turn);
                 } else {
-                    versine::of_small(angle, &versine::SIX, versine::six)
-                };
+                    *turn = of_small(*angle);
+                }
             }
         } else {
             for (turn, angle) in turns.iter_mut().zip(angles) {
@@ -232,6 +233,23 @@ impl<T: Real, const L: usize> Scalar for Lanes<T, L> {
         }
         turns
     }
+}
+
+/// Sine and versine of an angle that is small in all lanes.
+#[inline(always)]
+fn of_small<T: Real, const L: usize>(angle: Lanes<T, L>) -> [Lanes<T, L>; 2] {
+    if T::SEVEN_DIGITS {
+        versine::of_small(angle, &versine::THREE, versine::three)
+    } else {
+        versine::of_small(angle, &versine::SIX, versine::six)
+    }
+}
+
+/// One of several angles. It is called: of a loop over angles compilers make vectors of several
+/// angles, by gathers and scatters.
+#[inline(never)]
+fn of_small_apart<T: Real, const L: usize>(angle: &Lanes<T, L>, turn: &mut [Lanes<T, L>; 2]) {
+    *turn = of_small(*angle);
 }
 
 /// Sine and versine of an angle in each lane, whatever the others are.

@@ -93,6 +93,11 @@ pub trait Scalar:
     /// of some of them.
     const HAS_LANES: bool = false;
 
+    /// Whether a number is an array: lanes, or derivatives. What is done with each of several is
+    /// then called. Of a loop compilers would make vectors across these, by gathers and scatters,
+    /// which takes up to four times as long as one after the other.
+    const IS_WIDE: bool = false;
+
     /// Whether the absolute values of these numbers are known to be at most `bound`; NaN, which
     /// shows in whatever is computed of it, does not count. A type that cannot tell says no.
     #[must_use]

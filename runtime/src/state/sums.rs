@@ -12,10 +12,20 @@ pub(crate) fn plus<S: Scalar, X, const N: usize>(
     let mut result = *from;
     for (factor, direction) in terms {
         for (element, slope) in result.iter_mut().zip(part(direction)) {
-            *element = slope.fused(*factor, *element);
+            // Lanes lie as vectors do.
+            if S::IS_WIDE && !S::HAS_LANES && N > 1 {
+                add_apart(element, slope, factor);
+            } else {
+                *element = slope.fused(*factor, *element);
+            }
         }
     }
     result
+}
+
+#[inline(never)]
+fn add_apart<S: Scalar>(element: &mut S, slope: &S, factor: &S) {
+    *element = slope.fused(*factor, *element);
 }
 
 /// [`Vector::weighted_norm`] of a part of a state.
