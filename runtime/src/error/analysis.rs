@@ -23,6 +23,11 @@ pub enum AnalysisFault {
         /// The joint's field.
         joint: &'static str,
     },
+    /// A parameter or an input was given twice, where each may stand once.
+    GivenTwice {
+        /// Its field.
+        value: &'static str,
+    },
     /// A joint was chosen as a coordinate that has several motions, or fewer than the one that was
     /// asked for.
     SeveralMotions {
@@ -135,6 +140,7 @@ impl fmt::Display for AnalysisFault {
                 "the mechanism has {degrees_of_freedom} degree{} of freedom: choose as many coordinates, not {chosen}",
                 plural(degrees_of_freedom)
             ),
+            Self::GivenTwice { value } => write!(f, "`{value}` is given twice"),
             Self::ChosenTwice { joint } => {
                 write!(f, "the motion of joint `{joint}` was chosen twice")
             }

@@ -219,10 +219,19 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         state: &M::JointState<S>,
         directions: &[Option<Along>; K],
     ) -> Result<Standing<M, N, K, S>, Fault> {
-        let partition = self.known(state, Needs::Accelerations)?;
-        let there = self.state_along(state, &partition, directions)?;
+        let there = self.standing_state(state, directions)?;
         let bodies = self.bodies_along(state, &there);
         Ok((there, bodies))
+    }
+
+    /// A state along directions by number.
+    pub(crate) fn standing_state<const K: usize>(
+        &self,
+        state: &M::JointState<S>,
+        directions: &[Option<Along>; K],
+    ) -> Result<StateAlong<M, N, K, S>, Fault> {
+        let partition = self.known(state, Needs::Accelerations)?;
+        self.state_along(state, &partition, directions)
     }
 
     /// Parameters and bodies of a state along some directions.
@@ -240,7 +249,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     }
 
     /// The bodies of a state along directions.
-    pub(super) fn bodies_along<const K: usize>(
+    pub(crate) fn bodies_along<const K: usize>(
         &self,
         here: &M::JointState<S>,
         there: &StateAlong<M, N, K, S>,

@@ -319,9 +319,29 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
 
     /// The same of a state of other numbers, such as those that carry derivatives.
     pub(crate) fn rates_of<T: Scalar>(&self, state: &M::JointState<T>) -> [T; N] {
-        let rates = joint_rates::<M, T>(state);
+        self.chosen_of(&joint_rates::<M, T>(state))
+    }
+
+    /// Those of the chosen coordinates among numbers of all rates.
+    pub(crate) fn chosen_of<T: Scalar>(&self, numbers: &M::JointVelocities<T>) -> [T; N] {
         let places = &self.equations.places;
-        places.map(|place| at(rates.as_slice(), place))
+        places.map(|place| at(numbers.as_slice(), place))
+    }
+
+    /// Numbers of all rates, of the chosen ones; zeros for the others.
+    #[cfg(feature = "std")]
+    pub(crate) fn placed(&self, chosen: &[S; N]) -> M::JointVelocities<S> {
+        let mut numbers = M::JointVelocities::zeros();
+        for (&place, &number) in self.equations.places.iter().zip(chosen) {
+            set(&mut numbers, place, number);
+        }
+        numbers
+    }
+
+    /// What the kernels take that does not change with a state.
+    #[cfg(feature = "std")]
+    pub(crate) const fn joint_constants(&self) -> &M::JointConstants<S> {
+        &self.equations.constants
     }
 
     /// Kinetic energy (J).

@@ -66,10 +66,10 @@ use core::fmt;
 pub use base_parameters::{BaseParameters, InertialParameter};
 pub use choice::{Chosen, Coordinate, Motion};
 pub use continuation::{BranchEnd, BranchPoint, Continuation, PointKind};
-#[cfg(feature = "std")]
-pub(crate) use directions::Along;
 pub use directions::Direction;
 pub(crate) use directions::vary;
+#[cfg(feature = "std")]
+pub(crate) use directions::{Along, StateAlong};
 #[cfg(feature = "std")]
 pub(crate) use equations::not_finite;
 #[cfg(feature = "std")]

@@ -15,7 +15,7 @@ use crate::math::without_bounds::copied;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::is_no_inertia;
-use crate::mechanism::report::BodyKind;
+use crate::mechanism::report::{BodyKind, ValueInfo};
 use crate::state::vector::Array;
 
 /// A quantity that is sought, or along which equilibria are followed: a parameter or an input by
@@ -122,16 +122,48 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         self.set_parameter(of.index(), value)
     }
 
-    pub(super) fn parameter(&self, place: usize) -> S {
+    /// Sets several. Where all of them are inputs, what depends on inputs is computed once.
+    #[cfg(feature = "std")]
+    pub(crate) fn set_values(&mut self, of: &[ValueHandle<M>], values: &[S]) -> Result<(), Fault> {
+        let mut is_input_set = false;
+        for (of, &value) in of.iter().zip(values) {
+            let Some((info, former)) = self.put(of.index(), value)? else {
+                continue;
+            };
+            if info.is_input {
+                is_input_set = true;
+            } else {
+                self.prepare(info, of.index(), former)?;
+            }
+        }
+        if is_input_set {
+            self.take_inputs();
+        }
+        Ok(())
+    }
+
+    pub(crate) fn parameter(&self, place: usize) -> S {
         let known = self.parameters.as_slice().get(place);
         known.copied().unwrap_or(S::zero())
     }
 
     fn set_parameter(&mut self, place: usize, value: S) -> Result<(), Fault> {
+        let Some((info, former)) = self.put(place, value)? else {
+            return Ok(());
+        };
+        if info.is_input {
+            self.take_inputs();
+            return Ok(());
+        }
+        self.prepare(info, place, former)
+    }
+
+    /// Puts a number in its place; what it is, and the former one.
+    fn put(&mut self, place: usize, value: S) -> Result<Option<(&'static ValueInfo, S)>, Fault> {
         let info = M::REPORT.values.get(place);
         let number = self.parameters.as_mut_slice().get_mut(place);
         let (Some(info), Some(number)) = (info, number) else {
-            return Ok(());
+            return Ok(None);
         };
         if !value.is_finite() {
             return Err(Fault::Parameter(ParameterError {
@@ -140,12 +172,16 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
                 fault: ParameterFault::NotFinite,
             }));
         }
-        let former = core::mem::replace(number, value);
-        if info.is_input {
-            M::take_inputs(&self.parameters, &mut self.constants);
-            M::take_joint_inputs(&self.parameters, &mut self.equations.constants);
-            return Ok(());
-        }
+        Ok(Some((info, core::mem::replace(number, value))))
+    }
+
+    fn take_inputs(&mut self) {
+        M::take_inputs(&self.parameters, &mut self.constants);
+        M::take_joint_inputs(&self.parameters, &mut self.equations.constants);
+    }
+
+    /// Prepares for a parameter that was put; the former one, where it is refused.
+    fn prepare(&mut self, info: &ValueInfo, place: usize, former: S) -> Result<(), Fault> {
         let constants = M::prepare(&self.parameters);
         if let Some(fault) = refused::<M, S>(info.name, &constants) {
             if let Some(number) = self.parameters.as_mut_slice().get_mut(place) {

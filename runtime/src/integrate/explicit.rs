@@ -81,6 +81,17 @@ macro_rules! explicit {
                     }
                 }
 
+                fn tableau(&self) -> Option<crate::integrate::Tableau> {
+                    use crate::integrate::tableau::place;
+
+                    const NAMES: &[&str] = &[stringify!($first), $(stringify!($stage)),*];
+                    const TABLEAU: crate::integrate::Tableau = crate::integrate::Tableau {
+                        stages: &[$(&[$((place(NAMES, stringify!($slope)), $a)),+]),*],
+                        result: &[$((place(NAMES, stringify!($end)), $b)),+],
+                    };
+                    Some(TABLEAU)
+                }
+
                 $($($item)*)?
             }
 

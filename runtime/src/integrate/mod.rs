@@ -66,6 +66,7 @@ mod rk2;
 mod rk3;
 mod rk4;
 mod semi_implicit;
+mod single;
 mod slopes;
 mod tableau;
 mod tableau_853;
@@ -97,6 +98,7 @@ pub use rk3::Kutta3;
 pub use rk4::Rk4;
 pub use semi_implicit::SemiImplicitEuler;
 pub use slopes::{Checking, Counting, Look, Slopes, Unlooked};
+pub use tableau::Tableau;
 
 use core::fmt::Debug;
 
@@ -105,10 +107,15 @@ pub(crate) use self::memory::Reader;
 #[cfg(feature = "std")]
 pub(crate) use self::memory::Tape;
 pub(crate) use self::newton::by_differences;
+#[cfg(feature = "std")]
+pub(crate) use self::single::recorded;
+#[cfg(feature = "std")]
+pub(crate) use self::slopes::Evaluated;
 
+use self::single::{attempt, refused};
 use self::slopes::named;
 use crate::error::setting::interval;
-use crate::error::{Fault, StartFault, StepFault};
+use crate::error::{Fault, StartFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::state::vector::Vector;
 
@@ -149,8 +156,9 @@ pub trait System<S: Scalar> {
     /// first stage that is not.
     ///
     /// # Errors
-    /// What else keeps the system from having rates here; [`StepFault::StateNotFinite`] leaves it
-    /// to [`System::diagnose`] to say why.
+    /// What else keeps the system from having rates here;
+    /// [`StepFault::StateNotFinite`](crate::error::StepFault::StateNotFinite) leaves it to
+    /// [`System::diagnose`] to say why.
     #[inline(always)]
     fn stage(
         &mut self,
@@ -419,6 +427,11 @@ pub trait Scheme<S: Scalar>: Copy + Debug {
         ErrorModel::default()
     }
 
+    /// The tableau, of an explicit Runge-Kutta method.
+    fn tableau(&self) -> Option<Tableau> {
+        None
+    }
+
     /// Evaluates what [`Scheme::interpolate`] needs besides the slopes of a step that began at
     /// `time`, once for each step that is looked into.
     ///
@@ -548,49 +561,4 @@ impl<S: Real> TimeSpan<S> {
 #[inline(always)]
 fn room_for<S: Scalar, X: Vector<S>>(state: &X) -> X {
     state.zip(state, |_, _| S::zero())
-}
-
-/// A step, if it leads to a state that is finite; else why not, if that is known. No part of its
-/// caller: its stack is free again where a step is looked into that was refused.
-#[inline(never)]
-fn attempt<S: Real, K: OneStep<S, Y>, Y: System<S>>(
-    scheme: &K,
-    system: &mut Y,
-    (time, state): (S, &mut Y::State),
-    step: S,
-) -> Result<(), Option<Fault>> {
-    let mut slope = room_for(state);
-    system.stage(time, state, &mut slope)?;
-    let start = StepStart {
-        time,
-        state,
-        slope: &slope,
-    };
-    let unlooked = &mut Slopes::new(system);
-    let mut next = scheme.advanced(unlooked, start, step, &mut scheme.stages(&slope))?;
-    if !next.is_finite() {
-        return Err(None);
-    }
-    system.follow(state, step, &mut next);
-    *state = next;
-    system.renormalise(state, None);
-    Ok(())
-}
-
-/// Why a step failed, or led to a state that is not finite.
-#[cold]
-#[inline(never)]
-fn refused<S: Real, K: OneStep<S, Y>, Y: System<S>>(
-    scheme: &K,
-    system: &mut Y,
-    (time, state): (S, &Y::State),
-    step: S,
-    fault: Option<Fault>,
-) -> Fault {
-    named(fault, system, |system| {
-        let slope = &system.rates(time, state)?;
-        let start = StepStart { time, state, slope };
-        scheme.advanced(system, start, step, &mut scheme.stages(slope))
-    })
-    .unwrap_or(Fault::Step(StepFault::StateNotFinite))
 }

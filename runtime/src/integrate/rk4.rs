@@ -1,6 +1,8 @@
 //! The classical Runge-Kutta method.
 
-use super::{ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, StepStart, System, room_for};
+use super::{
+    ErrorModel, Look, NoStages, OneStep, Scheme, Slopes, StepStart, System, Tableau, room_for,
+};
 use crate::error::Fault;
 use crate::math::scalar::Scalar;
 use crate::state::vector::Vector;
@@ -20,6 +22,18 @@ impl<S: Scalar> Scheme<S> for Rk4 {
 
     fn stages<X: Vector<S>>(&self, _like: &X) -> NoStages {
         NoStages
+    }
+
+    fn tableau(&self) -> Option<Tableau> {
+        Some(Tableau {
+            stages: &[&[(0, 0.5)], &[(1, 0.5)], &[(2, 1.0)]],
+            result: &[
+                (0, 1.0 / 6.0),
+                (1, 1.0 / 3.0),
+                (2, 1.0 / 3.0),
+                (3, 1.0 / 6.0),
+            ],
+        })
     }
 
     /// For short steps the ratio of `z^5 / 60`, by which an angle is off after a step of twice `z`,

@@ -53,6 +53,19 @@ pub struct Unlooked;
 #[derive(Debug)]
 pub struct Counting<'a>(&'a mut Counts);
 
+/// Where slopes were evaluated is kept.
+#[cfg(feature = "std")]
+#[derive(Debug)]
+pub struct Recording<'a, S, X>(&'a mut std::vec::Vec<Evaluated<S, X>>);
+
+/// Where a slope was evaluated.
+#[cfg(feature = "std")]
+#[derive(Debug)]
+pub(crate) struct Evaluated<S, X> {
+    pub(crate) time: S,
+    pub(crate) state: X,
+}
+
 /// The first stage whose slope is not finite is kept.
 #[derive(Debug)]
 pub struct Checking<S, X> {
@@ -90,6 +103,27 @@ impl<S: Scalar, X: Vector<S>> Look<S, X> for Counting<'_> {
         rates: &mut X,
     ) -> Result<(), Fault> {
         self.0.evaluations += 1;
+        system.stage(time, state, rates)
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S: Scalar, X: Vector<S>> Look<S, X> for Recording<'_, S, X> {
+    #[inline(always)]
+    fn count(&mut self, _evaluations: usize) {}
+
+    #[inline(always)]
+    fn stage<Y: System<S, State = X>>(
+        &mut self,
+        system: &mut Y,
+        time: S,
+        state: &X,
+        rates: &mut X,
+    ) -> Result<(), Fault> {
+        self.0.push(Evaluated {
+            time,
+            state: state.clone(),
+        });
         system.stage(time, state, rates)
     }
 }
@@ -162,6 +196,20 @@ impl<'a, Y> Slopes<'a, Y, Counting<'a>> {
         Self {
             system,
             look: Counting(counts),
+        }
+    }
+}
+
+#[cfg(feature = "std")]
+impl<'a, Y, S, X> Slopes<'a, Y, Recording<'a, S, X>> {
+    #[inline(always)]
+    pub(super) fn recorded(
+        system: &'a mut Y,
+        stages: &'a mut std::vec::Vec<Evaluated<S, X>>,
+    ) -> Self {
+        Self {
+            system,
+            look: Recording(stages),
         }
     }
 }

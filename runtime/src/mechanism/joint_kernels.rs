@@ -48,6 +48,8 @@ pub trait JointCoordinates: Mechanism {
 
     /// What [`JointCoordinates::derivatives`] gives.
     type Derivatives<S: Scalar>: Array<S>;
+    /// What [`JointCoordinates::adjoint`] gives.
+    type Adjoint<S: Scalar>: Array<S>;
 
     /// What the coordinates are, and what an evaluation costs.
     const JOINT_REPORT: JointReport;
@@ -110,6 +112,22 @@ pub trait JointCoordinates: Mechanism {
         _time: S,
         _state: &Self::JointState<S>,
     ) -> Self::Derivatives<S> {
+        Array::zeros()
+    }
+
+    /// In a tree with `kernels = [adjoint]` the inputs by which there are slopes, by their places
+    /// in [`Report::values`](crate::Report::values).
+    const ADJOINT_BY: Option<&'static [usize]> = None;
+
+    /// What a weighted sum of the accelerations of the joints' rates changes by: with the position
+    /// of each joint, with each rate, and with the inputs of [`JointCoordinates::ADJOINT_BY`].
+    /// There is no number where that is `None`.
+    fn adjoint<S: Scalar>(
+        _constants: &Self::JointConstants<S>,
+        _time: S,
+        _state: &Self::JointState<S>,
+        _weights: &Self::JointVelocities<S>,
+    ) -> Self::Adjoint<S> {
         Array::zeros()
     }
 

@@ -1,5 +1,5 @@
 //! `kernels = [derivatives]`: the accelerations with their derivatives as a kernel, against numbers
-//! that carry derivatives.
+//! that carry derivatives. `kernels = [adjoint]`: how a weighted sum of accelerations changes.
 
 use core::array::from_fn;
 use core::f64::consts::PI;
@@ -20,7 +20,7 @@ static FRICTION: Spline<4> = Spline::natural([-3.0, -1.0, 1.0, 3.0], [0.4, 0.6, 
 macro_rules! twins {
     // Of a plane loop some rows follow from the others.
     ($with:ident, $without:ident, $fields:tt) => {
-        twins! { @$with [mass, inverse, derivatives] $fields }
+        twins! { @$with [mass, inverse, derivatives, adjoint] $fields }
         twins! { @$without [mass, inverse] $fields }
     };
     (@$name:ident [$($kernel:ident),*] { $($fields:tt)* }) => {
@@ -177,6 +177,34 @@ fn parts<const N: usize, const K: usize, const P: usize>(
     ]
 }
 
+/// `kernels = [adjoint]`, of random weights, against the columns of the derivatives.
+fn weighed<M: JointRates>(
+    parameters: &M::Parameters<f64>,
+    time: f64,
+    state: &M::JointState<f64>,
+    mut noise: impl FnMut() -> f64,
+) {
+    let constants = M::prepare_joints(parameters);
+    let mut weights = M::JointVelocities::zeros();
+    weights.as_mut_slice().fill_with(&mut noise);
+    let found = M::adjoint(&constants, time, state, &weights);
+    let columns = M::derivatives(&constants, time, state);
+    let (weights, columns) = (weights.as_slice(), columns.as_slice());
+    let rates = weights.len();
+    let inputs = M::ADJOINT_BY.expect("asked for").len();
+    assert_eq!(M::ADJOINT_BY, M::DERIVED_BY);
+    // Behind positions and rates stand efforts.
+    let places = (1..=2 * rates).chain((1 + 3 * rates..).take(inputs));
+    let wanted = places.map(|place| {
+        let column = &columns[rates * place..rates * (place + 1)];
+        column.iter().zip(weights).map(|(a, b)| a * b).sum::<f64>()
+    });
+    let wanted: Vec<f64> = wanted.collect();
+    assert_eq!(found.as_slice().len(), wanted.len());
+    let off = off(found.as_slice(), &wanted);
+    assert!(off < 1e-12, "{off:e}");
+}
+
 /// Numbers from -1 to 1, always the same.
 fn noise(seed: usize) -> impl FnMut() -> f64 {
     let mut place = seed as f64;
@@ -257,6 +285,11 @@ fn everything_that_a_tree_may_have() -> Result<(), Fault> {
             (&with, &one, [h.torque, h.push, h.pull, h.long]),
             (&without, &two, [g.torque, g.push, g.pull, g.long]),
         )?;
+        let mut parameters = a.parameters()?;
+        for (handle, value) in [h.torque, h.push, h.pull].into_iter().zip(inputs) {
+            parameters.as_mut_slice()[handle.index()] = value;
+        }
+        weighed::<Crawler>(&parameters, time, &one, &mut noise);
         // Readings take numbers that carry derivatives, and the rest is that of the kernel.
         let found = with.linearise(&one, [h.torque, h.long], |view| [view.position(h.slide).x])?;
         let wanted =
@@ -290,6 +323,8 @@ fn loops_and_drivers() -> Result<(), Fault> {
     let (a, b) = (Looped::new(0.3)?, PlainLooped::new(0.3)?);
     let (h, g) = (Looped::HANDLES, PlainLooped::HANDLES);
     assert_eq!(Looped::DERIVED_BY.map(<[usize]>::len), Some(2));
+    // The adjoint is of trees.
+    assert_eq!(Looped::ADJOINT_BY, None);
     for seed in 0..20 {
         let mut noise = noise(17 * seed);
         let q: [f64; 2] = from_fn(|_| 0.3 * noise());
@@ -359,13 +394,15 @@ fn arm<M, const N: usize>(
     [positions, rates, efforts]: [[[f64; N]; N]; 3],
 ) -> Result<(), Fault>
 where
-    M: HasInverse + HasMassMatrix,
+    M: HasInverse + HasMassMatrix + Default,
 {
     let [q, v, torques] = given();
     for (motor, torque) in motors.into_iter().zip(torques) {
         space.set_value(motor, torque)?;
     }
-    let linear = space.linearise(&space.state(q, v)?, motors, |_| [])?;
+    let state = space.state(q, v)?;
+    weighed::<M>(&M::default().parameters()?, 0.0, &state, noise(7));
+    let linear = space.linearise(&state, motors, |_| [])?;
     same("positions", linear.by_positions.as_slice(), positions);
     same("rates", linear.by_rates.as_slice(), rates);
     same("efforts", linear.by_efforts.as_slice(), efforts);

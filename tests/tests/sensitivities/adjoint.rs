@@ -1,14 +1,14 @@
 //! Gradients by the adjoint against forward sensitivities, differences of whole runs, and a closed
 //! form.
 
-use holonom::error::StartFault;
+use holonom::error::{AnalysisFault, StartFault};
 use holonom::independent::Direction;
 use holonom::prelude::*;
-use holonom::{Forward, Kutta3};
+use holonom::{DormandPrince853, Forward, Heun, Kutta3, Midpoint};
 
 /// A cart that a force pushes, with a pendulum.
 #[derive(Clone, Copy, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", kernels = [mass])]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", kernels = [mass, adjoint])]
 struct Crane {
     #[input]
     push: f64,
@@ -155,6 +155,100 @@ fn of_a_crane_by_everything() {
         off(found.by_values[0], by_length) < 1e-8,
         "{by_length} {found:?}"
     );
+}
+
+/// By the kernel, and by numbers that carry derivatives, which a parameter among the values needs.
+/// The chosen coordinates stand the other way round.
+#[test]
+fn of_a_crane_by_its_kernel() {
+    let (crane, h) = (Crane::new(0.8).expect("acceptable"), Crane::HANDLES);
+    let space = crane.coordinates((h.hinge, h.rail)).expect("both");
+    let start = space.state([0.4, 0.1], [-0.3, 0.2]).expect("regular");
+    let controls = controls::<12>();
+    assert_eq!(Crane::ADJOINT_BY, Some(&[h.push.index()][..]));
+    macro_rules! agree {
+        ($integrator:expr, |$instant:ident| $cost:expr) => {{
+            let integrator = $integrator;
+            let run = space.adjoint(StandardLagrange, integrator);
+            let found = run.gradient(&start, [h.push], &controls, [], |$instant| $cost);
+            let found = found.expect("regular");
+            let wanted = run.gradient(&start, [h.push], &controls, [h.length], |$instant| $cost);
+            let wanted = wanted.expect("regular");
+            assert_eq!((found.cost, &found.states), (wanted.cost, &wanted.states));
+            let by_controls = found.by_controls.iter().zip(&wanted.by_controls);
+            let by_state = found.by_positions.iter().chain(&found.by_rates);
+            let others = wanted.by_positions.iter().chain(&wanted.by_rates);
+            let pairs = by_controls.map(|([a], [b])| (*a, *b));
+            for (found, wanted) in pairs.chain(by_state.copied().zip(others.copied())) {
+                assert!(
+                    off(found, wanted) < 1e-13,
+                    "{integrator:?}: {found} {wanted}"
+                );
+            }
+        }};
+    }
+    macro_rules! costs {
+        ($integrator:expr) => {{
+            let fixed = Forward::fixed;
+            // What it reads of the state, at every instant, at the end, and without the bodies.
+            agree!($integrator, |instant| {
+                let off = instant.point(h.load, [0.0, 0.0, -0.1].map(fixed).into()).x;
+                let rate = instant.angle_rate(h.hinge);
+                off * off + fixed(0.1) * rate * rate
+            });
+            agree!($integrator, |instant| match instant.controls() {
+                Some([push]) => fixed(1e-2) * push * push,
+                None => instant.displacement(h.rail) * instant.angle(h.hinge),
+            });
+            agree!($integrator, |instant| {
+                let ([angle, way], [rate, speed]) = (instant.positions(), instant.rates()) else {
+                    unreachable!("two coordinates")
+                };
+                *angle * *speed + *way * *rate + instant.angle(h.hinge) * *way
+            });
+        }};
+    }
+    costs!(Rk4::every(0.05));
+    costs!(Midpoint::every(0.05));
+    costs!(Heun::every(0.05));
+    costs!(Kutta3::every(0.05));
+    costs!(DormandPrince::every(0.05));
+    costs!(BogackiShampine::every(0.05));
+    costs!(DormandPrince853::every(0.05));
+    // No Runge-Kutta method.
+    costs!(SemiImplicitEuler::every(0.05));
+    // An input that stays changes what all controls do.
+    let mut space = space;
+    space.set_value(h.push, 2.0).expect("finite");
+    let run = space.adjoint(StandardLagrange, Rk4::every(0.05));
+    let at_end = |is_end: bool, view: &View<'_, Forward<f64, 4>, Crane>| {
+        if is_end {
+            view.displacement(h.rail)
+        } else {
+            Forward::fixed(0.0)
+        }
+    };
+    let stays = run.gradient(&start, [], &[[]; 12], [h.push], |instant| {
+        at_end(instant.is_end(), instant)
+    });
+    let held = run.gradient(&start, [h.push], &[[2.0]; 12], [], |instant| {
+        at_end(instant.is_end(), instant)
+    });
+    let (stays, held) = (stays.expect("regular"), held.expect("regular"));
+    let sum: f64 = held.by_controls.iter().map(|[by]| by).sum();
+    assert!(off(stays.by_values[0], sum) < 1e-13 && sum > 0.01);
+    // An input that is held and stays would be two things.
+    let both = run.gradient(&start, [h.push], &[[2.0]; 12], [h.push], |_| {
+        Forward::fixed(0.0)
+    });
+    let twice = AnalysisFault::GivenTwice { value: "push" };
+    assert_eq!(both.err(), Some(Fault::Analysis(twice)));
+    let still = space.adjoint(StandardLagrange, Rk4::every(0.0));
+    let none = still.gradient(&start, [h.push], &[[2.0]], [], |_| Forward::fixed(0.0));
+    assert!(matches!(
+        none.err(),
+        Some(Fault::Start(StartFault::Setting { .. }))
+    ));
 }
 
 /// Against forward sensitivities to a constant input: the sum over the controls. The adjoint takes

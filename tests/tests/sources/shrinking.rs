@@ -17,7 +17,7 @@ const TUPLES: [(&str, usize); 37] = [
     ("dynamics/near.rs", 1),
     ("dynamics/straight_on.rs", 1),
     ("formulation/consistency.rs", 1),
-    ("integrate/mod.rs", 2),
+    ("integrate/single.rs", 2),
     ("integrate/slopes.rs", 1),
     ("lanes/step.rs", 1),
     ("mechanism/kernels.rs", 1),

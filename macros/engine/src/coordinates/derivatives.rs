@@ -38,14 +38,14 @@ pub struct Derivatives {
 }
 
 /// What the columns are along.
-struct Directions {
+pub(super) struct Directions {
     positions: Vec<Direction>,
     rates: Vec<Direction>,
     inputs: Vec<Direction>,
 }
 
 impl Directions {
-    fn all(&self) -> Vec<Direction> {
+    pub(super) fn all(&self) -> Vec<Direction> {
         let all = [&self.positions, &self.rates, &self.inputs];
         all.into_iter().flatten().cloned().collect()
     }
@@ -53,11 +53,25 @@ impl Directions {
 
 /// How the derivatives are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Road {
+pub(super) enum Road {
     /// Through the solution.
     ThroughSolution,
     /// Through the efforts of the accelerations.
     ThroughEfforts,
+}
+
+impl Road {
+    pub(super) const ALL: [Self; 2] = [Self::ThroughSolution, Self::ThroughEfforts];
+}
+
+/// The methods by which accelerations may be solved for, beside their own.
+pub(super) fn methods(reduced: &Reduced) -> Vec<Method> {
+    let own = reduced.strategy.method;
+    // Factors that all columns share are those of one matrix.
+    match own {
+        Method::Articulated => vec![own, Method::MassMatrix],
+        _ => vec![own],
+    }
 }
 
 impl Derivatives {
@@ -69,17 +83,10 @@ impl Derivatives {
         }
         let sums = &Sums::of(&reduced.links);
         let inputs = plain_inputs(model, reduced, sums);
-        let own = reduced.strategy.method;
-        // Factors that all columns share are those of one matrix.
-        let methods = match own {
-            Method::Articulated => vec![own, Method::MassMatrix],
-            _ => vec![own],
-        };
-        let kernels = methods.into_iter().flat_map(|method| {
+        let kernels = methods(reduced).into_iter().flat_map(|method| {
             let mut reduced = reduced.clone();
             reduced.strategy.method = method;
-            [Road::ThroughSolution, Road::ThroughEfforts]
-                .map(|road| kernel(reduced.clone(), sums, &inputs, road))
+            Road::ALL.map(|road| kernel(reduced.clone(), sums, &inputs, road))
         });
         let cost = |kernel: &Kernel| count(&kernel.arena, &kernel.outputs, Stage::State).total();
         let kernel = kernels.min_by_key(cost).filter(is_smooth)?;
@@ -89,7 +96,7 @@ impl Derivatives {
 }
 
 /// Whether it has no derivative of a spline that jumps.
-fn is_smooth(kernel: &Kernel) -> bool {
+pub(super) fn is_smooth(kernel: &Kernel) -> bool {
     let mut live = kernel
         .arena
         .live(&kernel.outputs, Stage::Parameter)
@@ -157,7 +164,7 @@ fn kernel(mut reduced: Reduced, sums: &Sums, inputs: &[(u32, usize)], road: Road
 }
 
 /// The accelerations of efforts along the rates of the joints, and right-hand sides of the rows.
-fn solved(
+pub(super) fn solved(
     arena: &mut Arena,
     sums: &Sums,
     factors: &Factors,
@@ -174,7 +181,7 @@ fn solved(
 
 /// The inputs that stand in the forces as they are, and not in the rows: symbol and place among the
 /// values.
-fn plain_inputs(model: &Model, reduced: &Reduced, sums: &Sums) -> Vec<(u32, usize)> {
+pub(super) fn plain_inputs(model: &Model, reduced: &Reduced, sums: &Sums) -> Vec<(u32, usize)> {
     let mut reduced = reduced.clone();
     let rows = reduced.rows_of_joints(sums);
     let arena = &mut reduced.scene.space.arena;
@@ -202,7 +209,7 @@ fn plain_inputs(model: &Model, reduced: &Reduced, sums: &Sums) -> Vec<(u32, usiz
 
 impl Reduced {
     /// The directions of joints and inputs.
-    fn directions(&mut self, sums: &Sums, inputs: &[(u32, usize)]) -> Directions {
+    pub(super) fn directions(&mut self, sums: &Sums, inputs: &[(u32, usize)]) -> Directions {
         // The rates of coordinates are linear in velocities: along a direction they are what the
         // coordinates change by.
         let mut moving = coordinate_rates(self);
@@ -251,7 +258,7 @@ impl Reduced {
     }
 
     /// The factors of the equations of motion.
-    fn factors(&mut self) -> Factors {
+    pub(super) fn factors(&mut self) -> Factors {
         let (rows, _) = self.rows(Terms::Plain);
         let elimination = self.elimination(Terms::Plain, &rows);
         let Self { links, scene, .. } = self;

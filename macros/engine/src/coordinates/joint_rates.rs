@@ -150,7 +150,7 @@ impl JointRates {
         };
         let asked = model.asked.iter().filter_map(|&asked| {
             let outputs: &dyn Fn(&mut Reduced, &Sums) -> Vec<Expr> = match asked {
-                Asked::Derivatives => return None,
+                Asked::Derivatives | Asked::Adjoint => return None,
                 Asked::Mass => &Reduced::mass_of_joints,
                 Asked::Gravity => &|reduced, sums| reduced.efforts(sums, Wanted::Gravity),
                 Asked::Coriolis => &|reduced, sums| reduced.efforts(sums, Wanted::Coriolis),

@@ -1,5 +1,6 @@
 //! The kernels of a mechanism in joint coordinates.
 
+use super::adjoint::Adjoint;
 use super::candidates::{Strategy, choose};
 use super::derivatives::Derivatives;
 use super::freedom::Freedom;
@@ -103,6 +104,8 @@ pub struct JointKernels {
     pub joint_rates: Option<JointRates>,
     /// The accelerations with their derivatives, where they are asked for.
     pub derivatives: Option<Derivatives>,
+    /// What a weighted sum of accelerations changes by, where it is asked for.
+    pub adjoint: Option<Adjoint>,
 }
 
 impl JointKernels {
@@ -182,6 +185,7 @@ impl JointKernels {
             bodies: bodies(&reduced, model),
             joint_rates: JointRates::new(model, &reduced),
             derivatives: Derivatives::new(model, &reduced),
+            adjoint: Adjoint::new(model, &reduced),
             joints: {
                 let mut arena = reduced.scene.space.arena.clone();
                 let outputs = from_bodies(&mut arena, model, links);

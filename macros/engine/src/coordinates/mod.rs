@@ -50,6 +50,7 @@
 //! Lagrangian use `factor_joints` and `solve_joints`, which contain no velocities and no described
 //! forces. A tree has one such pair; loops have one with and one without a compliance.
 
+pub mod adjoint;
 mod algebra;
 mod align;
 mod angles;

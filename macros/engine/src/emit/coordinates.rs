@@ -46,6 +46,7 @@ impl Writer<'_, JointKernels> {
         let joints = self.joints();
         let coordinate_rates = self.coordinate_rates();
         let derivatives = self.derivatives();
+        let adjoint = self.adjoint();
         let joint_rates = self.joint_rates();
         let coefficients = self.store.write_coefficients();
         let taken = taken(model, &mut self.store);
@@ -101,6 +102,8 @@ impl Writer<'_, JointKernels> {
                 #joints
                 #coordinate_rates
                 #derivatives
+
+                #adjoint
             }
 
             #joint_rates

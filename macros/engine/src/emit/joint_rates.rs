@@ -6,6 +6,7 @@ use quote::{format_ident, quote};
 use super::joint_report::option;
 use super::straight_line::StraightLine;
 use super::writer::Writer;
+use crate::coordinates::adjoint::Adjoint;
 use crate::coordinates::derivatives::Derivatives;
 use crate::coordinates::joint_rates::JointRates;
 use crate::coordinates::kernels::JointKernels;
@@ -22,6 +23,7 @@ fn names(asked: Asked) -> (Ident, Ident, Option<Ident>) {
         Asked::Inverse => ("HasInverse", "inverse_dynamics", None),
         Asked::Jacobian => ("HasJacobian", "joint_axes", Some("Axes")),
         Asked::Derivatives => ("JointCoordinates", "derivatives", Some("Derivatives")),
+        Asked::Adjoint => ("JointCoordinates", "adjoint", Some("Adjoint")),
     };
     (
         format_ident!("{implemented}"),
@@ -96,6 +98,40 @@ impl Writer<'_, JointKernels> {
                 ::core::option::Option::Some(&[#(#inputs),*]);
 
             fn derivatives<__S: #facade::Scalar>(#arguments) -> Self::Derivatives<__S> {
+                #unpack
+                #statements
+                [#(#outputs),*]
+            }
+        }
+    }
+
+    /// What a weighted sum of accelerations changes by; without it, the type of no number.
+    pub(super) fn adjoint(&mut self) -> TokenStream {
+        let (facade, kernels) = (self.facade, self.kernels);
+        let Some(Adjoint { kernel, inputs }) = &kernels.adjoint else {
+            return quote!(type Adjoint<__S: #facade::Scalar> = [__S; 0];);
+        };
+        let [.., of_velocities, _] = self.types_outside();
+        let weights = local("accelerations");
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.of_state(
+            "__adjoint",
+            kernel,
+            &quote!(#weights: &#of_velocities,),
+            &quote!(#weights,),
+        );
+        let (length, unpack, arguments) = (outputs.len(), Self::unpack(), arguments());
+        quote! {
+            type Adjoint<__S: #facade::Scalar> = [__S; #length];
+            const ADJOINT_BY: ::core::option::Option<&'static [usize]> =
+                ::core::option::Option::Some(&[#(#inputs),*]);
+
+            fn adjoint<__S: #facade::Scalar>(
+                #arguments
+                #weights: &Self::JointVelocities<__S>,
+            ) -> Self::Adjoint<__S> {
                 #unpack
                 #statements
                 [#(#outputs),*]

@@ -84,7 +84,9 @@ impl Writer<'_, JointKernels> {
         let asked = asked.map(|(asked, kernel)| (*asked, kernel));
         let derivatives = self.kernels.derivatives.iter();
         let derivatives = derivatives.map(|found| (Asked::Derivatives, &found.kernel));
-        let all = asked.chain(derivatives);
+        let adjoint = self.kernels.adjoint.iter();
+        let adjoint = adjoint.map(|found| (Asked::Adjoint, &found.kernel));
+        let all = asked.chain(derivatives).chain(adjoint);
         let counts = all.map(|(asked, Kernel { arena, outputs })| {
             let name = asked.word().into();
             (name, count(arena, outputs, Stage::State))

@@ -11,12 +11,17 @@ use crate::syntax::words::local;
 /// The functions by which kernels read sides; nothing where no law switches. Derivatives of
 /// transitions have sides as well.
 pub(super) fn functions(model: &Model, facade: &TokenStream) -> TokenStream {
-    if !model.has_sides() && !model.asked.contains(&Asked::Derivatives) {
+    if !model.has_sides() && !differentiates(model) {
         return TokenStream::new();
     }
     quote! {
         use #facade::__private::{above as __above, below as __below, side as __side};
     }
+}
+
+fn differentiates(model: &Model) -> bool {
+    let mut asked = model.asked.iter();
+    asked.any(|asked| matches!(asked, Asked::Derivatives | Asked::Adjoint))
 }
 
 impl Writer<'_> {

@@ -16,17 +16,20 @@ pub enum Asked {
     Jacobian,
     /// The accelerations with their derivatives.
     Derivatives,
+    /// What a weighted sum of accelerations changes by.
+    Adjoint,
 }
 
 impl Asked {
     /// What `kernels` takes.
-    pub const ALL: [(&'static str, Self); 6] = [
+    pub const ALL: [(&'static str, Self); 7] = [
         ("mass", Self::Mass),
         ("inverse", Self::Inverse),
         ("gravity", Self::Gravity),
         ("coriolis", Self::Coriolis),
         ("jacobian", Self::Jacobian),
         ("derivatives", Self::Derivatives),
+        ("adjoint", Self::Adjoint),
     ];
 
     /// The word for it.

@@ -40,6 +40,7 @@
 
 pub mod arena;
 pub mod bind;
+pub(crate) mod cotangent;
 pub mod count;
 pub mod differentiate;
 pub mod equations;

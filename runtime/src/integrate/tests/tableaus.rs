@@ -83,6 +83,25 @@ fn tableaus_meet_the_conditions_of_their_order_and_not_of_the_next() {
         let (met, next) = (missed(scheme, order), missed(scheme, order + 1));
         assert!(met < 1e-14, "{scheme:?}: {met}");
         assert!(next > 1e-6, "{scheme:?}: {next}");
+        // What it says of itself.
+        let (_, a, b) = tableau(scheme);
+        let said = scheme.tableau().expect("an explicit method");
+        let row = |terms: &[(usize, f64)]| {
+            let mut row = [0.0; MOST];
+            terms
+                .iter()
+                .for_each(|&(slope, weight)| row[slope] += weight);
+            row
+        };
+        let rows = said.stages.iter().map(|terms| row(terms));
+        for (said, taken) in rows
+            .chain([row(said.result)])
+            .zip(a[1..].iter().chain([&b]))
+        {
+            let apart = said.iter().zip(taken).map(|(said, taken)| said - taken);
+            assert!(apart.map(f64::abs).sum::<f64>() < 1e-14, "{scheme:?}");
+        }
+        assert_eq!(said.stages.len() + 1, stages);
     }
     check(Midpoint, 2, 2);
     check(Heun, 2, 2);

@@ -5,29 +5,38 @@
 //! adjoint, is carried back by the derivatives of that step alone (Griewank and Walther,
 //! *Evaluating Derivatives*, chapter 3; Hager, *Runge-Kutta methods in optimal control and the
 //! transformed adjoint system*, 2000). So all controls of all steps together cost some runs.
+//!
+//! A step is gone through backwards by the kernel of `kernels = [adjoint]` where that is there
+//! (`transposed.rs`), else by steps over numbers that carry derivatives (`back.rs`). What the cost
+//! reads at an instant is made when it is read (`instant.rs`).
+
+mod back;
+mod instant;
+mod transposed;
 
 use core::fmt::{self, Debug};
-use core::ops::Deref;
 use std::vec;
 use std::vec::Vec;
 
 use nalgebra::SVector;
 
+use self::back::Backwards;
+pub use self::instant::Instant;
+use self::transposed::Transposed;
 use super::Differentiable;
 use crate::dynamics::{Dynamics, Posed, Problem};
-use crate::error::{Fault, LeavesOut, StartFault, Unheeding};
+use crate::error::setting::positive;
+use crate::error::{AnalysisFault, Fault, LeavesOut, StartFault, Unheeding};
 use crate::formulation::Formulation;
-use crate::forward::{Forward, Lifted, lifted};
-use crate::independent::{Along, IndependentCoordinates};
-use crate::integrate::{FixedStep, OneStep, Scheme};
-use crate::math::scalar::{Real, Scalar};
-use crate::measure::view::View;
+use crate::forward::Lifted;
+use crate::independent::IndependentCoordinates;
+use crate::integrate::{Evaluated, FixedStep, OneStep, Scheme, recorded};
+use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Relative;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::{Mechanism as _, bodies_alone};
 use crate::nonsmooth::described::refuse_limits;
-use crate::state::vector::Array as _;
 
 /// The directions that one step takes, as many as [`Lifted`] numbers have.
 const LANES: usize = 4;
@@ -79,49 +88,6 @@ pub struct Gradient<X, const N: usize, const U: usize, const P: usize, S = f64> 
     pub states: Vec<X>,
 }
 
-/// What a cost may read: a [`View`], over numbers that carry derivatives.
-pub struct Instant<'a, M: JointRates, const U: usize, S: Real = f64> {
-    view: View<'a, Lifted<S>, M>,
-    number: usize,
-    controls: Option<[Lifted<S>; U]>,
-}
-
-impl<M: JointRates, const U: usize, S: Real> Instant<'_, M, U, S> {
-    /// How many steps were taken before.
-    #[must_use]
-    pub const fn number(&self) -> usize {
-        self.number
-    }
-
-    /// The controls of the step that begins here; `None` at the end.
-    #[must_use]
-    pub const fn controls(&self) -> Option<[Lifted<S>; U]> {
-        self.controls
-    }
-
-    /// Whether no step begins here.
-    #[must_use]
-    pub const fn is_end(&self) -> bool {
-        self.controls.is_none()
-    }
-}
-
-impl<'a, M: JointRates, const U: usize, S: Real> Deref for Instant<'a, M, U, S> {
-    type Target = View<'a, Lifted<S>, M>;
-
-    fn deref(&self) -> &Self::Target {
-        &self.view
-    }
-}
-
-impl<M: JointRates, const U: usize, S: Real> Debug for Instant<'_, M, U, S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Instant")
-            .field("number", &self.number)
-            .finish_non_exhaustive()
-    }
-}
-
 impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// Steps of a fixed length, from the time of the space on, along which
     /// [`gradient`](Adjoint::gradient) takes the gradient of a cost by the controls of every step:
@@ -133,7 +99,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ///
     /// /// A cart of 1 kg that a force pushes.
     /// #[derive(Mechanism)]
-    /// #[mechanism(coordinates = "joints", kernels = [mass])]
+    /// #[mechanism(coordinates = "joints", kernels = [adjoint])]
     /// struct Cart {
     ///     #[input]
     ///     push: f64,
@@ -196,7 +162,8 @@ where
     /// a cost at all instants: before each step, and at the end.
     ///
     /// `held` are the inputs that controls are of, `values` parameters and inputs that stay. The
-    /// others are those of the space. A parameter leaves the coordinates and rates of the start as
+    /// others are those of the space, and so are the held ones at the end, where no step begins. A
+    /// parameter leaves the coordinates and rates of the start as
     /// they are.
     ///
     /// In closed loops the gradient is that of states that satisfy the constraints, as those of
@@ -204,6 +171,9 @@ where
     ///
     /// # Errors
     /// - What a step refuses, and [`IndependentCoordinates::mass`].
+    /// - [`AnalysisFault::NoPosition`] of balls and free bodies: an orientation is no coordinate.
+    /// - [`AnalysisFault::GivenTwice`]: a value that stands twice among `held` and `values`.
+    ///   [`StartFault::Setting`]: a step that is not positive.
     /// - [`StepFault::RatesNotFinite`](crate::error::StepFault::RatesNotFinite): a cost or its
     ///   gradient is not finite.
     /// - [`StartFault::StateLeftOut`] of states of the user's own, [`StartFault::SwitchLeftOut`] of
@@ -224,19 +194,14 @@ where
         if let Some(switch) = M::SWITCHES.first() {
             return Err(Fault::Start(StartFault::SwitchLeftOut { law: switch.law }));
         }
-        let states = self.states(start, held, controls)?;
-        let carrying = self.formulation.carrying();
-        let mut along = Backwards {
-            adjoint: self,
-            held,
-            values,
-            space: *self.space,
-            dynamics: by_joints(lifted(&self.space.parameters), carrying)?,
-            cost: S::zero(),
-            by_positions: [S::zero(); N],
-            by_rates: [S::zero(); N],
-            by_values: [S::zero(); P],
-        };
+        positive("step", self.integrator.step)?;
+        if let Some(value) = twice(&held, &values) {
+            return Err(Fault::Analysis(AnalysisFault::GivenTwice { value }));
+        }
+        let mut transposed = Transposed::new(self.integrator, &held, &values, controls.len());
+        let stages = transposed.as_mut().map(Transposed::stages);
+        let states = self.states(start, held, controls, stages)?;
+        let mut along = Backwards::new(self, held, values, transposed)?;
         let mut by_controls = vec![[S::zero(); U]; controls.len()];
         for (number, state) in states.iter().enumerate().rev() {
             let found = along.before(number, state, controls.get(number), &cost)?;
@@ -244,14 +209,7 @@ where
                 *place = found;
             }
         }
-        let found = Gradient {
-            cost: along.cost,
-            by_controls,
-            by_positions: along.by_positions.into(),
-            by_rates: along.by_rates.into(),
-            by_values: along.by_values,
-            states,
-        };
+        let found = along.found(by_controls, states);
         if found.is_finite() {
             Ok(found)
         } else {
@@ -264,12 +222,14 @@ where
         S::constant(number as f64).fused(self.integrator.step, self.space.time())
     }
 
-    /// The states before each step and after the last.
+    /// The states before each step and after the last. Where it is wanted, times and states at the
+    /// stages of all steps.
     fn states<const U: usize>(
         &self,
         start: &M::JointState<S>,
         held: [ValueHandle<M>; U],
         controls: &[[S; U]],
+        mut stages: Option<&mut Vec<Evaluated<S, M::JointState<S>>>>,
     ) -> Result<Vec<M::JointState<S>>, Fault> {
         let mut space = *self.space;
         let mut dynamics = by_joints::<S, M, F>(space.parameters, self.formulation)?;
@@ -277,18 +237,20 @@ where
         let mut state = *start;
         states.push(state);
         for (number, controls) in controls.iter().enumerate() {
-            for (&input, &control) in held.iter().zip(controls) {
-                space.set_value(input, control)?;
-            }
+            space.set_values(&held, controls)?;
             if are_inputs::<M>(&held) {
                 dynamics.set_inputs(&M::inputs_of(&space.parameters))?;
             } else {
                 dynamics = by_joints::<S, M, F>(space.parameters, self.formulation)?;
             }
-            let (time, step) = (self.time(number), self.integrator.step);
-            self.integrator
-                .scheme
-                .step(&mut dynamics, time, &mut state, step)?;
+            let time = self.time(number);
+            let FixedStep { step, scheme } = self.integrator;
+            match &mut stages {
+                Some(stages) => {
+                    recorded(&scheme, &mut dynamics, time, &mut state, step, stages)?;
+                }
+                None => scheme.step(&mut dynamics, time, &mut state, step)?,
+            }
             states.push(state);
         }
         Ok(states)
@@ -312,147 +274,22 @@ fn by_joints<S: Real, M: JointRates, F: Formulation<S>>(
     Ok(dynamics.joint_coordinates())
 }
 
+/// The field of a value that stands twice among these.
+fn twice<M: JointRates>(
+    held: &[ValueHandle<M>],
+    values: &[ValueHandle<M>],
+) -> Option<&'static str> {
+    let all = held.iter().chain(values).map(|value| value.index());
+    let mut numbered = all.clone().enumerate();
+    let found =
+        numbered.find(|&(number, value)| all.clone().take(number).any(|other| other == value));
+    found.and_then(|(_, value)| Some(M::REPORT.values.get(value)?.name))
+}
+
 /// Whether these are inputs, which need no preparation.
 fn are_inputs<M: JointRates>(values: &[ValueHandle<M>]) -> bool {
     let mut infos = values
         .iter()
         .map(|value| M::REPORT.values.get(value.index()));
     infos.all(|info| info.is_some_and(|info| info.is_input))
-}
-
-/// What a direction belongs to.
-#[derive(Clone, Copy)]
-enum Part {
-    Position,
-    Rate,
-    Control,
-    Value,
-}
-
-/// The way back: what the cost from a step on changes by with the state there.
-struct Backwards<'a, M, F, K, const N: usize, const U: usize, const P: usize, S>
-where
-    M: JointRates,
-    S: Real,
-    F: Differentiable<S, LANES, Carrying: Formulation<Lifted<S>>>,
-{
-    adjoint: &'a Adjoint<'a, ByJoints<M, F, S>, K, N>,
-    held: [ValueHandle<M>; U],
-    values: [ValueHandle<M>; P],
-    /// With the controls and the time of a step.
-    space: IndependentCoordinates<M, N, S>,
-    dynamics: Steps<Lifted<S>, M, F::Carrying>,
-    cost: S,
-    by_positions: [S; N],
-    by_rates: [S; N],
-    by_values: [S; P],
-}
-
-impl<M, F, K, const N: usize, const U: usize, const P: usize, S> Backwards<'_, M, F, K, N, U, P, S>
-where
-    M: JointRates,
-    S: Real,
-    F: Formulation<S> + Differentiable<S, LANES, Carrying: Formulation<Lifted<S>>>,
-    K: Copy + OneStep<S, Steps<S, M, F>> + OneStep<Lifted<S>, Steps<Lifted<S>, M, F::Carrying>>,
-    FixedStep<S, K>: Differentiable<S, LANES>,
-{
-    /// Goes back before a step, or to the end of all; the derivatives by its controls.
-    fn before(
-        &mut self,
-        number: usize,
-        state: &M::JointState<S>,
-        controls: Option<&[S; U]>,
-        cost: &impl Fn(&Instant<'_, M, U, S>) -> Lifted<S>,
-    ) -> Result<[S; U], Fault> {
-        self.space.set_time(self.adjoint.time(number));
-        for (&input, &control) in self.held.iter().zip(controls.into_iter().flatten()) {
-            self.space.set_value(input, control)?;
-        }
-        let mut by_positions = [S::zero(); N];
-        let mut by_rates = [S::zero(); N];
-        let mut by_controls = [S::zero(); U];
-        let positions = (0..N).map(|column| (Part::Position, column, Along::Position(column)));
-        let rates = (0..N).map(|column| (Part::Rate, column, Along::Rate(column)));
-        let value = |part: Part| {
-            move |(column, value): (usize, &ValueHandle<M>)| {
-                (part, column, Along::Value(value.index()))
-            }
-        };
-        let (held, values) = (self.held, self.values);
-        let of_controls = held.iter().enumerate().map(value(Part::Control));
-        let of_controls = of_controls.filter(|_| controls.is_some());
-        let of_values = values.iter().enumerate().map(value(Part::Value));
-        let mut columns = positions.chain(rates).chain(of_controls).chain(of_values);
-        let mut is_first = true;
-        loop {
-            let chunk: [_; LANES] = core::array::from_fn(|_| columns.next());
-            if chunk[0].is_none() && !is_first {
-                break;
-            }
-            let directions = chunk.map(|column| column.map(|(.., direction)| direction));
-            let is_end = controls.is_none();
-            let (now, slopes) = self.along((number, is_end), state, &directions, cost)?;
-            if is_first {
-                self.cost = self.cost + now;
-            }
-            is_first = false;
-            for ((part, column, _), slope) in chunk.into_iter().flatten().zip(slopes) {
-                let place = match part {
-                    Part::Position => by_positions.get_mut(column),
-                    Part::Rate => by_rates.get_mut(column),
-                    Part::Control => by_controls.get_mut(column),
-                    Part::Value => self.by_values.get_mut(column),
-                };
-                if let Some(place) = place {
-                    *place = *place + slope;
-                }
-            }
-        }
-        (self.by_positions, self.by_rates) = (by_positions, by_rates);
-        Ok(by_controls)
-    }
-
-    /// The cost at an instant, and how the cost from there on changes along directions.
-    fn along(
-        &mut self,
-        (number, is_end): (usize, bool),
-        state: &M::JointState<S>,
-        directions: &[Option<Along>; LANES],
-        cost: &impl Fn(&Instant<'_, M, U, S>) -> Lifted<S>,
-    ) -> Result<(S, [S; LANES]), Fault> {
-        let (there, bodies) = self.space.standing_along(state, directions)?;
-        if are_inputs::<M>(&self.held) && are_inputs::<M>(&self.values) {
-            self.dynamics.set_inputs(&M::inputs_of(&there.parameters))?;
-        } else {
-            let carrying = self.adjoint.formulation.carrying();
-            self.dynamics = by_joints(there.parameters, carrying)?;
-        }
-        let time = Forward::fixed(self.space.time());
-        let control = |input: ValueHandle<M>| {
-            let number = there.parameters.as_slice().get(input.index());
-            number.copied().unwrap_or(Forward::zero())
-        };
-        let instant = Instant {
-            view: View::new(self.dynamics.constants(), time, &bodies),
-            number,
-            controls: (!is_end).then(|| self.held.map(control)),
-        };
-        let now = cost(&instant);
-        let mut slopes = now.derivatives();
-        if is_end {
-            return Ok((now.value(), slopes));
-        }
-        let mut next = there.state;
-        let FixedStep { step, scheme } = self.adjoint.integrator;
-        scheme.step(&mut self.dynamics, time, &mut next, Forward::fixed(step))?;
-        let positions = self.space.positions_of(&next)?;
-        let of_positions = positions.iter().zip(&self.by_positions);
-        let rates = self.space.rates_of(&next);
-        for (number, &adjoint) in of_positions.chain(rates.iter().zip(&self.by_rates)) {
-            for (slope, by) in slopes.iter_mut().zip(number.derivatives()) {
-                *slope = adjoint.fused(by, *slope);
-            }
-        }
-        Ok((now.value(), slopes))
-    }
 }
