@@ -15,7 +15,7 @@ use holonom::prelude::*;
 /// dynamics against [Pinocchio](https://github.com/stack-of-tasks/pinocchio), which the tests hold
 /// to 1e-12.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both", kernels = [mass, inverse, jacobian, derivatives, adjoint])]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both", kernels = [mass, inverse, jacobian, forward, derivatives, adjoint])]
 pub struct Panda {
     /// The moment of the motor of `joint_1` (N m), on the outer link.
     #[input]

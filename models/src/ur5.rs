@@ -24,7 +24,7 @@ use holonom::prelude::*;
 /// Good for: a robot of six hinges in a row; forward dynamics against
 /// [Pinocchio](https://github.com/stack-of-tasks/pinocchio), which the tests hold to 1e-12.
 #[derive(Clone, Copy, Debug, Mechanism)]
-#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both", kernels = [mass, inverse, jacobian, derivatives, adjoint])]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both", kernels = [mass, inverse, jacobian, forward, derivatives, adjoint])]
 pub struct Ur5 {
     /// The moment of the motor of `pan` (N m), on the outer link.
     #[input]

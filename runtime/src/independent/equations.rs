@@ -116,7 +116,8 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
         self.efforts(following, &efforts)
     }
 
-    /// The accelerations of these efforts, by `L D L^T` of the mass matrix.
+    /// The accelerations of these efforts, by their kernel where it is there, else by `L D L^T` of
+    /// the mass matrix.
     pub(super) fn forward_with(
         &self,
         following: Option<&Partition<M, N, S>>,
@@ -126,6 +127,11 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     where
         M: HasInverse + HasMassMatrix,
     {
+        if M::HAS_FORWARD && following.is_none() {
+            let all = self.accelerations(None, efforts);
+            let all = M::forward_dynamics(&self.constants, self.time, state, &all);
+            return self.efforts(None, &all);
+        }
         let mass = self.mass_with(following, state);
         let bias = self.inverse_with(following, state, &[S::zero(); N]);
         let mut right = *efforts;
@@ -295,6 +301,9 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
 
     /// Forward dynamics: the accelerations (rad/s^2, m/s^2) under these efforts along the
     /// coordinates and the described forces. `M(q)^-1 (f - h(q, v))`.
+    ///
+    /// In a tree with `kernels = [.., forward]` it is one kernel. Else the mass matrix is
+    /// factorised.
     ///
     /// # Errors
     /// As [`IndependentCoordinates::mass`].

@@ -115,6 +115,21 @@ pub trait JointCoordinates: Mechanism {
         Array::zeros()
     }
 
+    /// Whether there is [`JointCoordinates::forward_dynamics`]: in a tree with
+    /// `kernels = [forward]`.
+    const HAS_FORWARD: bool = false;
+
+    /// The accelerations of the joints' rates under these efforts along them and the described
+    /// forces. Zeros where [`JointCoordinates::HAS_FORWARD`] says that they are not there.
+    fn forward_dynamics<S: Scalar>(
+        _constants: &Self::JointConstants<S>,
+        _time: S,
+        _state: &Self::JointState<S>,
+        _efforts: &Self::JointVelocities<S>,
+    ) -> Self::JointVelocities<S> {
+        Array::zeros()
+    }
+
     /// In a tree with `kernels = [adjoint]` the inputs by which there are slopes, by their places
     /// in [`Report::values`](crate::Report::values).
     const ADJOINT_BY: Option<&'static [usize]> = None;

@@ -1,5 +1,6 @@
 //! `kernels = [derivatives]`: the accelerations with their derivatives as a kernel, against numbers
 //! that carry derivatives. `kernels = [adjoint]`: how a weighted sum of accelerations changes.
+//! `kernels = [forward]`, against the mass matrix.
 
 use core::array::from_fn;
 use core::f64::consts::PI;
@@ -20,7 +21,7 @@ static FRICTION: Spline<4> = Spline::natural([-3.0, -1.0, 1.0, 3.0], [0.4, 0.6, 
 macro_rules! twins {
     // Of a plane loop some rows follow from the others.
     ($with:ident, $without:ident, $fields:tt) => {
-        twins! { @$with [mass, inverse, derivatives, adjoint] $fields }
+        twins! { @$with [mass, inverse, forward, derivatives, adjoint] $fields }
         twins! { @$without [mass, inverse] $fields }
     };
     (@$name:ident [$($kernel:ident),*] { $($fields:tt)* }) => {
@@ -285,6 +286,10 @@ fn everything_that_a_tree_may_have() -> Result<(), Fault> {
             (&with, &one, [h.torque, h.push, h.pull, h.long]),
             (&without, &two, [g.torque, g.push, g.pull, g.long]),
         )?;
+        let efforts: [f64; 13] = from_fn(|_| 2.0 * noise());
+        let found = with.forward(&one, efforts)?;
+        let wanted = without.forward(&two, efforts)?;
+        assert!(off(found.as_slice(), wanted.as_slice()) < 1e-12);
         let mut parameters = a.parameters()?;
         for (handle, value) in [h.torque, h.push, h.pull].into_iter().zip(inputs) {
             parameters.as_mut_slice()[handle.index()] = value;
@@ -323,8 +328,8 @@ fn loops_and_drivers() -> Result<(), Fault> {
     let (a, b) = (Looped::new(0.3)?, PlainLooped::new(0.3)?);
     let (h, g) = (Looped::HANDLES, PlainLooped::HANDLES);
     assert_eq!(Looped::DERIVED_BY.map(<[usize]>::len), Some(2));
-    // The adjoint is of trees.
-    assert_eq!(Looped::ADJOINT_BY, None);
+    // These are of trees.
+    assert!(Looped::ADJOINT_BY.is_none() && !Looped::HAS_FORWARD && Crawler::HAS_FORWARD);
     for seed in 0..20 {
         let mut noise = noise(17 * seed);
         let q: [f64; 2] = from_fn(|_| 0.3 * noise());

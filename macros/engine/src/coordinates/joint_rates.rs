@@ -30,6 +30,8 @@ pub struct JointRates {
     /// What is asked for. Of the mass matrix it is the lower triangle row by row, of efforts one
     /// for each rate, of Jacobians axis, a point on it and direction of translation for each rate.
     pub asked: Vec<(Asked, Kernel)>,
+    /// The accelerations of given efforts, where they are asked for, and no row closes a loop.
+    pub forward: Option<Kernel>,
     /// The rows that remain: `D`, row by row; `gamma`; `Phi'`; `Phi`.
     pub rows: Kernel,
     /// Body by body the rates that move it. Beside one that only carries a ball along, whose
@@ -150,7 +152,7 @@ impl JointRates {
         };
         let asked = model.asked.iter().filter_map(|&asked| {
             let outputs: &dyn Fn(&mut Reduced, &Sums) -> Vec<Expr> = match asked {
-                Asked::Derivatives | Asked::Adjoint => return None,
+                Asked::Forward | Asked::Derivatives | Asked::Adjoint => return None,
                 Asked::Mass => &Reduced::mass_of_joints,
                 Asked::Gravity => &|reduced, sums| reduced.efforts(sums, Wanted::Gravity),
                 Asked::Coriolis => &|reduced, sums| reduced.efforts(sums, Wanted::Coriolis),
@@ -159,7 +161,10 @@ impl JointRates {
             };
             Some((asked, kernel(outputs)))
         });
+        let is_tree = reduced.scene.layout.rows == 0;
+        let forward = is_tree && model.asked.contains(&Asked::Forward);
         Some(Self {
+            forward: forward.then(|| kernel(&Reduced::accelerations_of_efforts)),
             asked: asked.collect(),
             rows: kernel(&Reduced::rows_of_joints),
             moved_by: moved_by(&reduced.links),
@@ -179,6 +184,17 @@ pub(super) enum Wanted {
 }
 
 impl Reduced {
+    /// The accelerations of the joints' rates under efforts along these, which are
+    /// [`Input::Acceleration`], and the described forces.
+    fn accelerations_of_efforts(&mut self, sums: &Sums) -> Vec<Expr> {
+        let arena = &mut self.scene.space.arena;
+        let efforts = (0..self.links.velocities as u32).map(Input::Acceleration);
+        let efforts = efforts.map(|effort| arena.input(effort)).collect();
+        let along = sums.forces(arena, efforts);
+        let solution = self.solve_with(Terms::Plain, &along);
+        sums.rates(&mut self.scene.space.arena, &solution.accelerations)
+    }
+
     /// Efforts along the rates of the joints.
     pub(super) fn efforts(&mut self, sums: &Sums, wanted: Wanted) -> Vec<Expr> {
         let ground = match wanted {

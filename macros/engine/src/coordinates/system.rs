@@ -287,11 +287,19 @@ impl Reduced {
 
     /// Rates of the velocities, and multipliers.
     pub fn solve(&mut self, terms: Terms) -> Solution {
+        self.solve_with(terms, &[])
+    }
+
+    /// The same with efforts along the velocities beside the described forces.
+    pub(super) fn solve_with(&mut self, terms: Terms, beside: &[Expr]) -> Solution {
         let (rows, gamma) = self.rows(terms);
         let elimination = self.elimination(terms, &rows);
         let (links, handovers) = self.counted(&elimination);
-        let (wrenches, efforts) = self.forces(&links);
+        let (wrenches, mut efforts) = self.forces(&links);
         let arena = &mut self.scene.space.arena;
+        for (effort, &beside) in efforts.iter_mut().zip(beside) {
+            *effort = arena.add(*effort, beside);
+        }
         if self.strategy.method == Method::Articulated && rows.is_empty() {
             return Solution {
                 accelerations: links.articulated(arena, &wrenches, &efforts),

@@ -47,6 +47,7 @@ impl Writer<'_, JointKernels> {
         let coordinate_rates = self.coordinate_rates();
         let derivatives = self.derivatives();
         let adjoint = self.adjoint();
+        let forward = self.forward();
         let joint_rates = self.joint_rates();
         let coefficients = self.store.write_coefficients();
         let taken = taken(model, &mut self.store);
@@ -104,6 +105,8 @@ impl Writer<'_, JointKernels> {
                 #derivatives
 
                 #adjoint
+
+                #forward
             }
 
             #joint_rates

@@ -22,6 +22,7 @@ fn names(asked: Asked) -> (Ident, Ident, Option<Ident>) {
         Asked::Coriolis => ("HasCoriolis", "coriolis_efforts", None),
         Asked::Inverse => ("HasInverse", "inverse_dynamics", None),
         Asked::Jacobian => ("HasJacobian", "joint_axes", Some("Axes")),
+        Asked::Forward => ("JointCoordinates", "forward_dynamics", None),
         Asked::Derivatives => ("JointCoordinates", "derivatives", Some("Derivatives")),
         Asked::Adjoint => ("JointCoordinates", "adjoint", Some("Adjoint")),
     };
@@ -111,32 +112,63 @@ impl Writer<'_, JointKernels> {
         let Some(Adjoint { kernel, inputs }) = &kernels.adjoint else {
             return quote!(type Adjoint<__S: #facade::Scalar> = [__S; 0];);
         };
-        let [.., of_velocities, _] = self.types_outside();
-        let weights = local("accelerations");
-        let StraightLine {
-            statements,
-            outputs,
-        } = self.of_state(
-            "__adjoint",
-            kernel,
-            &quote!(#weights: &#of_velocities,),
-            &quote!(#weights,),
-        );
-        let (length, unpack, arguments) = (outputs.len(), Self::unpack(), arguments());
+        let (function, length) = self.of_rates("adjoint", kernel, &quote!(Adjoint));
         quote! {
             type Adjoint<__S: #facade::Scalar> = [__S; #length];
             const ADJOINT_BY: ::core::option::Option<&'static [usize]> =
                 ::core::option::Option::Some(&[#(#inputs),*]);
 
-            fn adjoint<__S: #facade::Scalar>(
+            #function
+        }
+    }
+
+    /// The accelerations of given efforts, where they are asked for.
+    pub(super) fn forward(&mut self) -> TokenStream {
+        let kernels = self.kernels;
+        let asked = kernels.joint_rates.as_ref();
+        let Some(kernel) = asked.and_then(|asked| asked.forward.as_ref()) else {
+            return TokenStream::new();
+        };
+        let (function, _) = self.of_rates("forward_dynamics", kernel, &quote!(JointVelocities));
+        quote! {
+            const HAS_FORWARD: bool = true;
+
+            #function
+        }
+    }
+
+    /// A function of a state and of a number for each rate, with its number of outputs.
+    fn of_rates(
+        &mut self,
+        name: &str,
+        kernel: &Kernel,
+        returned: &TokenStream,
+    ) -> (TokenStream, usize) {
+        let facade = self.facade;
+        let [.., of_velocities, _] = self.types_outside();
+        let given = local("accelerations");
+        let StraightLine {
+            statements,
+            outputs,
+        } = self.of_state(
+            &format!("__{name}"),
+            kernel,
+            &quote!(#given: &#of_velocities,),
+            &quote!(#given,),
+        );
+        let (unpack, arguments) = (Self::unpack(), arguments());
+        let function = format_ident!("{name}");
+        let tokens = quote! {
+            fn #function<__S: #facade::Scalar>(
                 #arguments
-                #weights: &Self::JointVelocities<__S>,
-            ) -> Self::Adjoint<__S> {
+                #given: &Self::JointVelocities<__S>,
+            ) -> Self::#returned<__S> {
                 #unpack
                 #statements
                 [#(#outputs),*]
             }
-        }
+        };
+        (tokens, outputs.len())
     }
 
     fn asked(&mut self, asked: Asked, kernel: &Kernel, of_joints: &JointRates) -> TokenStream {

@@ -86,7 +86,9 @@ impl Writer<'_, JointKernels> {
         let derivatives = derivatives.map(|found| (Asked::Derivatives, &found.kernel));
         let adjoint = self.kernels.adjoint.iter();
         let adjoint = adjoint.map(|found| (Asked::Adjoint, &found.kernel));
-        let all = asked.chain(derivatives).chain(adjoint);
+        let rates = self.kernels.joint_rates.iter();
+        let forward = rates.filter_map(|of| Some((Asked::Forward, of.forward.as_ref()?)));
+        let all = asked.chain(forward).chain(derivatives).chain(adjoint);
         let counts = all.map(|(asked, Kernel { arena, outputs })| {
             let name = asked.word().into();
             (name, count(arena, outputs, Stage::State))

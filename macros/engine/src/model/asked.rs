@@ -14,6 +14,8 @@ pub enum Asked {
     Coriolis,
     /// The axes of the joints, of which Jacobians of points are made.
     Jacobian,
+    /// The accelerations of given efforts.
+    Forward,
     /// The accelerations with their derivatives.
     Derivatives,
     /// What a weighted sum of accelerations changes by.
@@ -22,12 +24,13 @@ pub enum Asked {
 
 impl Asked {
     /// What `kernels` takes.
-    pub const ALL: [(&'static str, Self); 7] = [
+    pub const ALL: [(&'static str, Self); 8] = [
         ("mass", Self::Mass),
         ("inverse", Self::Inverse),
         ("gravity", Self::Gravity),
         ("coriolis", Self::Coriolis),
         ("jacobian", Self::Jacobian),
+        ("forward", Self::Forward),
         ("derivatives", Self::Derivatives),
         ("adjoint", Self::Adjoint),
     ];
