@@ -91,7 +91,7 @@ type Bodies<M, S> = (
 /// The chosen coordinates at an instant, whatever the directions.
 pub(super) type Positions<const N: usize, S> = OnceCell<Result<[S; N], Fault>>;
 
-/// The same, made when it is asked for.
+/// How a mechanism stands at an instant, made when it is asked for.
 pub(super) struct Lazy<'a, M: JointRates, const N: usize, S: Real> {
     space: &'a IndependentCoordinates<M, N, S>,
     state: &'a M::JointState<S>,
