@@ -1,7 +1,7 @@
 //! What the equations in chosen coordinates cost, and derivatives: mass matrix, inverse and forward
-//! dynamics, linearisation; a run of 500 steps of [`Rk4`], and the same with eight derivatives;
-//! 1000 steps of an arm with other torques each, and the gradient of a cost at their end by all of
-//! these.
+//! dynamics, linearisation. A run of 500 steps of [`Rk4`], and the same with eight derivatives. A
+//! thousand steps of an arm with other torques each, and the gradient of a cost at their end by all
+//! torques.
 
 use std::hint::black_box;
 

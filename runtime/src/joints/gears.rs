@@ -16,11 +16,10 @@ crate::joint! {
 }
 
 crate::joint! {
-    /// A pinion `i` that turns on the carrier `k` about the line along `axis` through `hub`, and a
-    /// rack `j` that slides on it along `slide`: the rack moves away from the hub by `radius` (m)
-    /// times the angle of the pinion. Negative where the rack moves against `slide` as the pinion
-    /// turns right-handed about `axis`. So does a drum `i` with its load `j` on a rope that stays
-    /// taut.
+    /// A pinion `i` turns on the carrier `k` about the line along `axis` through `hub`. A rack `j`
+    /// slides on `k` along `slide`, by `radius` (m) times the angle of the pinion. The radius is
+    /// negative where the rack moves against `slide` as the pinion turns right-handed about `axis`.
+    /// A drum `i` with its load `j` on a rope that stays taut is the same.
     ///
     /// Rack and pinion push each other along `slide`, at `point`; where they meet there, the
     /// carrier feels nothing of it, and the bearing of the pinion carries the force.

@@ -6,14 +6,13 @@
 //! taken. The first goes back through the solution, operation by operation. The second weighs what
 //! is solved: `w . a` changes by `-y . (dM a + dh)` with `M y = w`.
 
-use super::derivatives::{Directions, Road, is_smooth, methods, plain_inputs, solved};
+use super::derivatives::{Directions, Road, cheapest, plain_inputs, solved};
 use super::joint_rates::{Sums, Wanted};
 use super::system::Reduced;
 use crate::model::{Asked, Model};
 use crate::plan::system::Terms;
-use crate::symbolic::arena::{Arena, Expr, Input, Stage};
+use crate::symbolic::arena::{Arena, Expr, Input};
 use crate::symbolic::cotangent::gradient;
-use crate::symbolic::count::count;
 use crate::symbolic::equations::Kernel;
 use crate::symbolic::tangent::{Direction, with_inputs};
 
@@ -38,13 +37,9 @@ impl Adjoint {
         }
         let sums = &Sums::of(&reduced.links);
         let inputs = plain_inputs(model, reduced, sums);
-        let kernels = methods(reduced).into_iter().flat_map(|method| {
-            let mut reduced = reduced.clone();
-            reduced.strategy.method = method;
-            Road::ALL.map(|road| kernel(reduced.clone(), sums, &inputs, road))
-        });
-        let cost = |kernel: &Kernel| count(&kernel.arena, &kernel.outputs, Stage::State).total();
-        let kernel = kernels.min_by_key(cost).filter(is_smooth)?;
+        let kernel = cheapest(reduced, |reduced, road| {
+            kernel(reduced, sums, &inputs, road)
+        })?;
         let inputs = inputs.into_iter().map(|(_, place)| place).collect();
         Some(Self { kernel, inputs })
     }

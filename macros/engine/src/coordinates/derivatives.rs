@@ -60,18 +60,25 @@ pub(super) enum Road {
     ThroughEfforts,
 }
 
-impl Road {
-    pub(super) const ALL: [Self; 2] = [Self::ThroughSolution, Self::ThroughEfforts];
-}
-
-/// The methods by which accelerations may be solved for, beside their own.
-pub(super) fn methods(reduced: &Reduced) -> Vec<Method> {
+/// The kernel with the fewest operations, by either road and by the methods that may solve for
+/// accelerations. `None` where a derivative of a spline jumps.
+pub(super) fn cheapest(
+    reduced: &Reduced,
+    kernel: impl Fn(Reduced, Road) -> Kernel,
+) -> Option<Kernel> {
     let own = reduced.strategy.method;
     // Factors that all columns share are those of one matrix.
-    match own {
+    let methods = match own {
         Method::Articulated => vec![own, Method::MassMatrix],
         _ => vec![own],
-    }
+    };
+    let kernels = methods.into_iter().flat_map(|method| {
+        let mut reduced = reduced.clone();
+        reduced.strategy.method = method;
+        [Road::ThroughSolution, Road::ThroughEfforts].map(|road| kernel(reduced.clone(), road))
+    });
+    let cost = |kernel: &Kernel| count(&kernel.arena, &kernel.outputs, Stage::State).total();
+    kernels.min_by_key(cost).filter(is_smooth)
 }
 
 impl Derivatives {
@@ -83,20 +90,16 @@ impl Derivatives {
         }
         let sums = &Sums::of(&reduced.links);
         let inputs = plain_inputs(model, reduced, sums);
-        let kernels = methods(reduced).into_iter().flat_map(|method| {
-            let mut reduced = reduced.clone();
-            reduced.strategy.method = method;
-            Road::ALL.map(|road| kernel(reduced.clone(), sums, &inputs, road))
-        });
-        let cost = |kernel: &Kernel| count(&kernel.arena, &kernel.outputs, Stage::State).total();
-        let kernel = kernels.min_by_key(cost).filter(is_smooth)?;
+        let kernel = cheapest(reduced, |reduced, road| {
+            kernel(reduced, sums, &inputs, road)
+        })?;
         let inputs = inputs.into_iter().map(|(_, place)| place).collect();
         Some(Self { kernel, inputs })
     }
 }
 
 /// Whether it has no derivative of a spline that jumps.
-pub(super) fn is_smooth(kernel: &Kernel) -> bool {
+fn is_smooth(kernel: &Kernel) -> bool {
     let mut live = kernel
         .arena
         .live(&kernel.outputs, Stage::Parameter)

@@ -1,14 +1,14 @@
 //! A step backwards, by the kernel that `kernels = [adjoint]` asks for.
 //!
-//! With the tableau `a`, `b` of an explicit Runge-Kutta method, of `q' = v`, `v' = f(q, v, u)`, and
-//! a step `h` to where the cost changes by `p` and `r` with `q` and `v`: the slopes of stage `i`
-//! are weighed with
+//! An explicit Runge-Kutta method of the tableau `a`, `b` takes a step `h` of `q' = v`,
+//! `v' = f(q, v, u)`. At its end the cost changes by `p` and `r` with `q` and `v`. The slopes of
+//! stage `i` are then weighed with
 //!
 //! ```text
 //! k_i = h (b_i p + sum over j > i of a_ji x_j),  l_i = h (b_i r + sum over j > i of a_ji y_j)
 //! ```
 //!
-//! of which its state has `x_i = f_q^T l_i`, `y_i = k_i + f_v^T l_i`. At the start the cost changes
+//! and its state has `x_i = f_q^T l_i`, `y_i = k_i + f_v^T l_i`. At the start the cost changes
 //! by `p + sum of x_i` and `r + sum of y_i`, and with the inputs by the sum of `f_u^T l_i`. Angles
 //! are the sums of what pairs are turned by, so `q` is a vector.
 
