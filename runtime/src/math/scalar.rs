@@ -5,6 +5,7 @@
 //! fit. What must branch on a value (step control, Newton's loop, verdicts on pivots) asks for
 //! [`Real`], a scalar that can be compared.
 
+use core::array::from_fn;
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -258,7 +259,7 @@ pub(crate) mod elementary {
 }
 
 macro_rules! real {
-    ($float:ty, $sqrt:ident, $sin:ident, $cos:ident, $exp:ident, $atan2:ident, $round:ident, $pow:ident, $coefficients:ident, $polynomial:ident) => {
+    ($float:ty, $sqrt:ident, $sin:ident, $cos:ident, $exp:ident, $atan2:ident, $round:ident, $pow:ident, $coefficients:ident, $polynomial:ident, $quarter:ident, $quarter_bound:expr) => {
         impl Scalar for $float {
             #[inline(always)]
             fn constant(value: f64) -> Self {
@@ -370,17 +371,60 @@ macro_rules! real {
                     versine::of_small(angle, &versine::$coefficients, versine::$polynomial)
                 }
 
+                /// Less whole quarters of a turn, unless it is small: what is left is.
+                #[inline(always)]
+                fn of_some_turns(angle: $float) -> [$float; 2] {
+                    // The sum is rounded to whole numbers, whose lowest bits are its own.
+                    const WHOLE: $float = 1.5 / <$float>::EPSILON;
+                    const PER_QUARTER: $float = core::f64::consts::FRAC_2_PI as $float;
+                    let sum = angle * PER_QUARTER + WHOLE;
+                    let is_small = angle.abs() < SMALL;
+                    let place = if is_small { 0 } else { sum.to_bits() & 3 };
+                    let quarters = if is_small { 0.0 } else { sum - WHOLE };
+                    let [first, second, third] = versine::$quarter;
+                    let rest = angle - quarters * first;
+                    let near = rest - quarters * second;
+                    let lost = (rest - near) - quarters * second - quarters * third;
+                    versine::ahead(of_small(near + lost), place as u8)
+                }
+
+                /// Eight at once, so that a compiler has whole registers of them whatever their
+                /// number is.
+                #[inline(always)]
+                fn of_some_turns_each(angles: &[$float; 8]) -> [[$float; 8]; 2] {
+                    let [mut sines, mut versines] = [[0.0; 8]; 2];
+                    let places = sines.iter_mut().zip(&mut versines);
+                    for ((sine, versine), &angle) in places.zip(angles) {
+                        [*sine, *versine] = of_some_turns(angle);
+                    }
+                    [sines, versines]
+                }
+
                 // The same number for an angle, whatever stands beside it.
                 #[cold]
                 #[inline(never)]
-                fn of_any(angle: $float) -> [$float; 2] {
-                    let size = angle.abs();
-                    if size < SMALL {
-                        of_small(angle)
-                    } else if size < 2.0 * SMALL {
-                        versine::doubled(of_small(0.5 * angle))
-                    } else {
-                        versine::of(angle)
+                fn of_any<const N: usize>(angles: &[$float; N], turns: &mut [[$float; 2]; N]) {
+                    const SOME: $float = $quarter_bound;
+                    let near = angles
+                        .iter()
+                        .fold(true, |near, angle| near & (angle.abs() < SOME));
+                    if !near {
+                        for (turn, &angle) in turns.iter_mut().zip(angles) {
+                            *turn = if angle.abs() < SOME {
+                                of_some_turns(angle)
+                            } else {
+                                versine::of(angle)
+                            };
+                        }
+                        return;
+                    }
+                    for first in (0..N).step_by(8) {
+                        let eight = from_fn(|k| angles.get(first + k).copied().unwrap_or(0.0));
+                        let [sines, versines] = of_some_turns_each(&eight);
+                        let places = turns.iter_mut().skip(first);
+                        for (turn, (&sine, &versine)) in places.zip(sines.iter().zip(&versines)) {
+                            *turn = [sine, versine];
+                        }
                     }
                 }
 
@@ -400,9 +444,7 @@ macro_rules! real {
                         *turn = of_small(angle);
                     }
                 } else {
-                    for (turn, &angle) in turns.iter_mut().zip(angles) {
-                        *turn = of_any(angle);
-                    }
+                    of_any(angles, &mut turns);
                 }
                 turns
             }
@@ -447,10 +489,32 @@ macro_rules! real {
 }
 
 real!(
-    f64, sqrt64, sin64, cos64, exp64, atan2_64, round64, pow64, SIX, six
+    f64,
+    sqrt64,
+    sin64,
+    cos64,
+    exp64,
+    atan2_64,
+    round64,
+    pow64,
+    SIX,
+    six,
+    QUARTER_BY_FORTY,
+    12_000.0
 );
 real!(
-    f32, sqrt32, sin32, cos32, exp32, atan2_32, round32, pow32, THREE, three
+    f32,
+    sqrt32,
+    sin32,
+    cos32,
+    exp32,
+    atan2_32,
+    round32,
+    pow32,
+    THREE,
+    three,
+    QUARTER_BY_SEVENTEEN,
+    190.0
 );
 
 /// The increment of an element for a difference.

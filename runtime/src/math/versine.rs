@@ -69,6 +69,33 @@ pub(crate) fn of<S: Scalar>(angle: S) -> [S; 2] {
     [twice * half.cos(), twice * sine]
 }
 
+/// A quarter of a turn (rad) in three parts. Of the first two the products with up to 2^13 quarters
+/// have no more digits than `f64` has, so that taking them away leaves nothing out.
+pub(crate) const QUARTER_BY_FORTY: [f64; 3] = [
+    1.570_796_326_794_152_3,
+    7.443_547_480_480_255e-13,
+    6.368_317_163_510_95e-25,
+];
+
+/// The same for `f32` and up to 2^7 quarters.
+pub(crate) const QUARTER_BY_SEVENTEEN: [f32; 3] = [1.570_785_5, 1.080_427_3e-5, 6.077_1e-11];
+
+/// `[sin a, 1 - cos a]` of an angle that is so many quarters of a turn ahead of one with these: what
+/// remains of whole turns decides. Neither is a small difference.
+#[inline(always)]
+pub(crate) fn ahead<S: Scalar>([sine, versine]: [S; 2], quarters: u8) -> [S; 2] {
+    let sign = |number: S| if quarters & 2 == 0 { number } else { -number };
+    if quarters & 1 == 0 {
+        let opposite = S::constant(2.0) - versine;
+        [
+            sign(sine),
+            if quarters & 2 == 0 { versine } else { opposite },
+        ]
+    } else {
+        [sign(S::one() - versine), S::one() + sign(sine)]
+    }
+}
+
 /// `[sin a, 1 - cos a]` of a small angle (rad), by the coefficients of both and what makes a
 /// polynomial of them: [`SIX`] and [`six`], or [`THREE`] and [`three`].
 #[inline(always)]
