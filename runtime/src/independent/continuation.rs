@@ -177,7 +177,7 @@ where
             step,
             points,
         } = continuation;
-        let along = varied.adjusted(&self.equations.places)?;
+        let along = varied.adjusted(&*self.equations.places)?;
         let step = setting::positive("step", step)?;
         let mut set = (*self, self.rates(start));
         let begin = self.present(along, &set.1);

@@ -5,6 +5,7 @@ use super::directions::Along;
 use super::elimination::at;
 use super::linearised::Linearised;
 use super::partition::Partition;
+use super::places::Places;
 use super::varied::Adjusted;
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::joint_rates::JointRates;
@@ -18,9 +19,7 @@ const WEAK: f64 = 1e-3;
 pub(super) struct Derived<M: JointRates, const N: usize, S: Scalar> {
     numbers: M::Derivatives<S>,
     inputs: &'static [usize],
-    places: [usize; N],
-    /// Whether these are all rates, in their order.
-    is_in_order: bool,
+    places: Places<N>,
     /// How many rates the joints have.
     rates: usize,
 }
@@ -45,7 +44,6 @@ impl<M: JointRates, const N: usize, S: Real> Derived<M, N, S> {
             numbers: M::derivatives(&equations.constants, equations.time, state),
             inputs,
             places: equations.places,
-            is_in_order: rates == N && equations.places.iter().copied().eq(0..N),
             rates,
         };
         let columns = BY_INPUTS * rates + inputs.len() + if rows > 0 { rates } else { 0 };
@@ -114,7 +112,7 @@ impl<M: JointRates, const N: usize, S: Real> Derived<M, N, S> {
     fn by_position(&self, partition: &Partition<M, N, S>, along: &[S]) -> M::JointVelocities<S> {
         let n = self.rates;
         let mut rates = self.sum(BY_INPUTS * n + self.inputs.len(), along);
-        let chosen = self.places.map(|place| at(rates.as_slice(), place));
+        let chosen = self.places.take(rates.as_slice());
         for (column, rate) in partition.columns.iter().zip(chosen) {
             add(rates.as_mut_slice(), -rate, column.as_slice());
         }
@@ -147,7 +145,7 @@ impl<M: JointRates, const N: usize, S: Real> Derived<M, N, S> {
 
     /// Copies the columns of the chosen coordinates, from one on.
     fn copy(&self, first: usize, matrix: &mut [S]) {
-        if self.is_in_order {
+        if self.places.are_all {
             let block = self
                 .numbers
                 .as_slice()
@@ -165,7 +163,7 @@ impl<M: JointRates, const N: usize, S: Real> Derived<M, N, S> {
     /// Writes what a column has for the chosen coordinates as the column of a matrix.
     fn put(&self, column: &[S], number: usize, matrix: &mut [S]) {
         if let Some(entries) = matrix.get_mut(N * number..N * (number + 1)) {
-            for (entry, &place) in entries.iter_mut().zip(&self.places) {
+            for (entry, &place) in entries.iter_mut().zip(self.places.iter()) {
                 *entry = at(column, place);
             }
         }

@@ -10,6 +10,7 @@
 
 use super::elimination::{Pivot, at};
 use super::partition::{Partition, Standing, joint_rates, put_velocities, write_rates};
+use super::places::Places;
 use super::{Equations, IndependentCoordinates};
 use crate::constraints::row_units::characteristic_length;
 use crate::constraints::rows::Rows;
@@ -53,7 +54,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     /// What the kernels take at parameters, with the sizes of the rows that close loops.
     pub(super) fn prepared(
         (parameters, prepared): (&M::Parameters<S>, &M::Constants<S>),
-        places: [usize; N],
+        places: Places<N>,
         time: S,
     ) -> Self {
         let described = M::initial_state(prepared);
@@ -99,6 +100,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
 impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// How what is not chosen follows, at a state to compute by; `None` in a tree, where everything
     /// is chosen.
+    #[inline]
     pub(super) fn determined(
         &self,
         state: &M::JointState<S>,
@@ -249,7 +251,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             there.is_some_and(|there| {
                 let columns = here.columns.iter().zip(&there.columns);
                 let (mut off, mut most) = (0.0_f64, 0.0_f64);
-                for ((here, there), &place) in columns.zip(&equations.places) {
+                for ((here, there), &place) in columns.zip(equations.places.iter()) {
                     let unit = equations.scale(place).to_f64();
                     off = off.max(unit * self.largest(&difference::<M, S>(here, there)));
                     most = most.max(unit * self.largest(here));

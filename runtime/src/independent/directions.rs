@@ -5,7 +5,6 @@ use core::marker::PhantomData;
 
 use super::choice::Coordinate;
 use super::determined::Needs;
-use super::elimination::set;
 use super::partition::{Partition, put_velocities, write_rates};
 use super::points::moved;
 use super::{Equations, IndependentCoordinates};
@@ -200,9 +199,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             write_rates::<M, N, Forward<S, K>>(&dependent, &rates_along, true, &mut there);
         } else {
             let mut all = M::JointVelocities::zeros();
-            for (&place, &rate) in equations.places.iter().zip(&rates_along) {
-                set(&mut all, place, rate);
-            }
+            equations.places.put(&rates_along, all.as_mut_slice());
             put_velocities::<M, Forward<S, K>>(&all, &mut there);
         }
         Ok(StateAlong {
@@ -242,7 +239,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ) -> Result<Start<M, K, S>, Fault> {
         let mut along = [None; K];
         for (along, direction) in along.iter_mut().zip(directions) {
-            *along = Some(direction.among(&self.equations.places)?);
+            *along = Some(direction.among(&*self.equations.places)?);
         }
         let (there, bodies) = self.standing_along(state, &along)?;
         Ok((there.parameters, bodies))

@@ -3,7 +3,7 @@
 use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 use super::determined::Needs;
-use super::elimination::{at, set};
+use super::elimination::at;
 use super::partition::{Partition, joint_rates};
 use super::{Equations, IndependentCoordinates};
 use crate::error::{Fault, NotFinite, StepFault};
@@ -12,6 +12,7 @@ use crate::mechanism::joint_rates::{
     HasCoriolis, HasGravity, HasInverse, HasMassMatrix, JointRates,
 };
 use crate::mechanism::relative::bodies_of;
+use crate::state::sums::zero_if_finite;
 use crate::state::vector::Array;
 
 impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
@@ -27,6 +28,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     }
 
     /// The accelerations of all joints, `B z' + b`.
+    #[inline]
     pub(super) fn accelerations(
         &self,
         following: Option<&Partition<M, N, S>>,
@@ -34,9 +36,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     ) -> M::JointVelocities<S> {
         let Some(partition) = following else {
             let mut all = M::JointVelocities::zeros();
-            for (&place, &acceleration) in self.places.iter().zip(chosen) {
-                set(&mut all, place, acceleration);
-            }
+            self.places.put(chosen, all.as_mut_slice());
             return all;
         };
         let mut all = partition.bias;
@@ -48,13 +48,14 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     }
 
     /// The efforts along the chosen coordinates, `B^T f`.
+    #[inline]
     fn efforts(
         &self,
         following: Option<&Partition<M, N, S>>,
         all: &M::JointVelocities<S>,
     ) -> [S; N] {
         let Some(partition) = following else {
-            return self.places.map(|place| at(all.as_slice(), place));
+            return self.places.take(all.as_slice());
         };
         partition.columns.map(|column| {
             let products = column.as_slice().iter().zip(all.as_slice());
@@ -63,6 +64,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     }
 
     /// `B^T M B`.
+    #[inline]
     pub(super) fn mass_with(
         &self,
         following: Option<&Partition<M, N, S>>,
@@ -79,6 +81,17 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
         };
         let Some(partition) = following else {
             let mut rows = [[S::zero(); N]; N];
+            if self.places.are_all {
+                let mut entries = lower.iter();
+                #[allow(clippy::needless_range_loop, reason = "an entry has two places")]
+                for row in 0..N {
+                    for (column, &entry) in (0..=row).zip(&mut entries) {
+                        rows[row][column] = entry;
+                        rows[column][row] = entry;
+                    }
+                }
+                return rows;
+            }
             for (row, &place) in self.places.iter().enumerate() {
                 for (column, &other) in self.places.iter().enumerate().take(row + 1) {
                     let entry = entry(place, other);
@@ -102,6 +115,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     }
 
     /// The efforts of these accelerations.
+    #[inline]
     pub(super) fn inverse_with(
         &self,
         following: Option<&Partition<M, N, S>>,
@@ -118,6 +132,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
 
     /// The accelerations of these efforts, by their kernel where it is there, else by `L D L^T` of
     /// the mass matrix.
+    #[inline]
     pub(super) fn forward_with(
         &self,
         following: Option<&Partition<M, N, S>>,
@@ -227,6 +242,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ///
     /// [`AnalysisFault::NotDetermined`]: crate::error::AnalysisFault::NotDetermined
     /// [`AnalysisFault::NotIndependent`]: crate::error::AnalysisFault::NotIndependent
+    #[inline]
     pub fn mass(&self, state: &M::JointState<S>) -> Result<SMatrix<S, N, N>, Fault>
     where
         M: HasMassMatrix,
@@ -234,7 +250,10 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         // It is symmetric: its rows are its columns.
         let following = self.determined(state, Needs::Rates)?;
         let rows = self.equations.mass_with(following.as_ref(), state);
-        finite_matrix(SMatrix::from_data(ArrayStorage(rows)))
+        if !are_finite(rows.as_flattened()) {
+            return Err(not_finite());
+        }
+        Ok(SMatrix::from_data(ArrayStorage(rows)))
     }
 
     /// Inverse dynamics: the efforts that have to act along the coordinates, beside the described
@@ -242,6 +261,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ///
     /// # Errors
     /// As [`IndependentCoordinates::mass`].
+    #[inline]
     pub fn inverse(
         &self,
         state: &M::JointState<S>,
@@ -307,6 +327,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ///
     /// # Errors
     /// As [`IndependentCoordinates::mass`].
+    #[inline]
     pub fn forward(
         &self,
         state: &M::JointState<S>,
@@ -333,17 +354,14 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
 
     /// Those of the chosen coordinates among numbers of all rates.
     pub(crate) fn chosen_of<T: Scalar>(&self, numbers: &M::JointVelocities<T>) -> [T; N] {
-        let places = &self.equations.places;
-        places.map(|place| at(numbers.as_slice(), place))
+        self.equations.places.take(numbers.as_slice())
     }
 
     /// Numbers of all rates, of the chosen ones; zeros for the others.
     #[cfg(feature = "std")]
     pub(crate) fn placed(&self, chosen: &[S; N]) -> M::JointVelocities<S> {
         let mut numbers = M::JointVelocities::zeros();
-        for (&place, &number) in self.equations.places.iter().zip(chosen) {
-            set(&mut numbers, place, number);
-        }
+        self.equations.places.put(chosen, numbers.as_mut_slice());
         numbers
     }
 
@@ -369,21 +387,27 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
 }
 
 /// Numbers that may go on.
+#[inline]
 pub(super) fn finite<S: Real, const N: usize>(numbers: [S; N]) -> Result<SVector<S, N>, Fault> {
     finite_matrix(SVector::from(numbers))
 }
 
 /// The same of a matrix.
+#[inline]
 pub(super) fn finite_matrix<S: Real, const R: usize, const C: usize>(
     matrix: SMatrix<S, R, C>,
 ) -> Result<SMatrix<S, R, C>, Fault> {
-    // Without an early end, so that the compiler looks at several at once.
-    let numbers = matrix.as_slice().iter();
-    if numbers.fold(true, |finite, number| finite & number.is_finite()) {
+    if are_finite(matrix.as_slice()) {
         Ok(matrix)
     } else {
         Err(not_finite())
     }
+}
+
+/// Whether all are, without an early end, so that the compiler looks at several at once.
+#[inline]
+pub(super) fn are_finite<S: Real>(numbers: &[S]) -> bool {
+    zero_if_finite(numbers) == S::zero()
 }
 
 /// The fault of numbers that may not.

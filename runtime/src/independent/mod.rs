@@ -49,6 +49,7 @@ mod lqr;
 mod modes;
 mod momentum;
 mod partition;
+mod places;
 mod points;
 mod regressor;
 #[cfg(feature = "std")]
@@ -81,6 +82,7 @@ pub use modes::Mode;
 pub use regressor::INERTIAL_PARAMETERS;
 pub use varied::Varied;
 
+use self::places::Places;
 use crate::error::{AssemblyFault, Fault, ParameterError};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::without_bounds::copied;
@@ -117,8 +119,7 @@ pub struct IndependentCoordinates<M: JointRates, const N: usize, S: Scalar = f64
 /// What the kernels take beside a state, in any scalar.
 struct Equations<M: JointRates, const N: usize, S: Scalar> {
     constants: M::JointConstants<S>,
-    /// The places of the chosen rates.
-    places: [usize; N],
+    places: Places<N>,
     time: S,
     /// A length of the mechanism (m), by which displacements compare with angles.
     length: S,
@@ -192,7 +193,7 @@ pub trait IndependentExt: JointRates {
         &self,
         chosen: impl Chosen<Self, N>,
     ) -> Result<IndependentCoordinates<Self, N, S>, Fault> {
-        let places = choice::places::<Self, N>(chosen)?;
+        let places = Places::of::<Self>(choice::places::<Self, N>(chosen)?);
         let parameters = self.parameters()?;
         let constants = Self::prepare(&parameters);
         let mut space = IndependentCoordinates {
@@ -287,7 +288,7 @@ copied! {
 impl<M: JointRates, const N: usize, S: Scalar> fmt::Debug for IndependentCoordinates<M, N, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("IndependentCoordinates")
-            .field("rates", &self.equations.places)
+            .field("rates", &*self.equations.places)
             .field("time", &self.equations.time)
             .finish_non_exhaustive()
     }

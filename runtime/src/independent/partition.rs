@@ -69,7 +69,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
             closing: M::JointVelocities::zeros(),
             standing: Standing::TREE,
         };
-        for (column, &place) in partition.columns.iter_mut().zip(&self.places) {
+        for (column, &place) in partition.columns.iter_mut().zip(self.places.iter()) {
             set(column, place, S::one());
         }
         if M::JOINT_REPORT.closing.is_empty() {
@@ -138,7 +138,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
                 }));
             };
             let inverse = elimination.entry(row, column).reciprocal();
-            for (of_chosen, &place) in partition.columns.iter_mut().zip(&self.places) {
+            for (of_chosen, &place) in partition.columns.iter_mut().zip(self.places.iter()) {
                 set(of_chosen, column, -elimination.entry(row, place) * inverse);
             }
             let of = |right: &M::ClosingMultipliers<S>| at(right.as_slice(), row) * inverse;
@@ -149,7 +149,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
         // What is left of other rows restricts the chosen rates themselves.
         for row in (0..height).filter(|&row| !elimination.is_taken(row)) {
             let size = at(sizes.as_slice(), row).abs().to_f64();
-            for &place in &self.places {
+            for &place in self.places.iter() {
                 let left = (elimination.entry(row, place) * scale(place))
                     .abs()
                     .to_f64();

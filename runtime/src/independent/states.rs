@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use nalgebra::SVector;
 
 use super::determined::Needs;
-use super::elimination::set;
+use super::equations::are_finite;
 use super::partition::{Partition, put_velocities, write_rates};
 use super::{Equations, IndependentCoordinates};
 use crate::assembly::assembled;
@@ -42,13 +42,14 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// The same of a state of other numbers, such as those that carry derivatives.
     pub(crate) fn positions_of<T: Real>(&self, state: &M::JointState<T>) -> Result<[T; N], Fault> {
         let mut positions = [T::zero(); N];
-        for (position, &place) in positions.iter_mut().zip(&self.equations.places) {
+        let places = &self.equations.places;
+        for (position, (&place, counted)) in positions.iter_mut().zip(places.with_counted()) {
             let (number, motion) = motion_at::<M>(place)?;
             let joint = motion.mover();
             let coordinate = M::JOINT_REPORT.coordinate(number, state);
             let coordinate =
                 coordinate.ok_or(Fault::Analysis(AnalysisFault::NoPosition { joint }))?;
-            *position = match place_of::<M>(motion).and_then(|place| state.turns().get(place)) {
+            *position = match counted.and_then(|place| state.turns().get(place)) {
                 Some(&counted) => turns::nearest(coordinate, counted),
                 None => coordinate,
             };
@@ -68,6 +69,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// angular velocity; what
     /// [`MechanismExt::assemble`](crate::MechanismExt::assemble) refuses; a choice that fails on
     /// the way.
+    #[inline]
     pub fn state(
         &self,
         positions: impl Into<SVector<S, N>>,
@@ -102,6 +104,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     }
 
     /// A state of a tree on a way from another one, whose coordinates are known.
+    #[inline]
     fn moved(
         &self,
         from: &M::JointState<S>,
@@ -115,13 +118,8 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             M::rewrap(&self.constants, &mut bodies);
             state = self.of_bodies(&bodies);
         }
-        for ((begin, way), &place) in begin.iter().zip(way).zip(&self.equations.places) {
-            let (_, motion) = motion_at::<M>(place)?;
-            let counted = place_of::<M>(motion);
-            if let Some(counted) = counted.and_then(|place| state.turns_mut().get_mut(place)) {
-                *counted = *begin + *way;
-            }
-        }
+        let positions = begin.iter().zip(way).map(|(&begin, &way)| begin + way);
+        self.equations.places.count(positions, state.turns_mut());
         self.with_rates(&state, rates)
     }
 
@@ -201,7 +199,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let places = angles
             .iter_mut()
             .zip(way.iter())
-            .zip(&self.equations.places);
+            .zip(self.equations.places.iter());
         for ((angle, &way), &place) in places {
             let freedom = motion_at::<M>(place).map(|(_, motion)| motion.freedom);
             if !matches!(freedom, Ok(Freedom::Slide)) {
@@ -212,6 +210,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     }
 
     /// A state whose chosen joints are moved by a way while the others of the tree stay.
+    #[inline]
     fn turned(&self, state: &M::JointState<S>, way: &[S; N]) -> M::JointState<S> {
         let Equations {
             constants,
@@ -220,9 +219,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             ..
         } = &self.equations;
         let mut rates = M::JointVelocities::<S>::zeros();
-        for (&place, &way) in places.iter().zip(way) {
-            set(&mut rates, place, way);
-        }
+        places.put(way, rates.as_mut_slice());
         let mut moving = *state;
         put_velocities::<M, S>(&rates, &mut moving);
         let slope = rates_of_motion::<S, M>(constants, *time, &moving);
@@ -311,7 +308,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let present = self.positions(state)?;
         let left = wanted.zip_map(&present, |wanted, present| wanted - present);
         let mut left: [S; N] = left.into();
-        for (left, &place) in left.iter_mut().zip(&self.equations.places) {
+        for (left, &place) in left.iter_mut().zip(self.equations.places.iter()) {
             let (_, motion) = motion_at::<M>(place)?;
             if matches!(motion.freedom, Freedom::Turn { .. }) {
                 let turns = (*left * S::constant(TAU.recip())).round();
@@ -325,6 +322,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     ///
     /// # Errors
     /// As [`IndependentCoordinates::mass`].
+    #[inline]
     pub fn with_rates(
         &self,
         state: &M::JointState<S>,
@@ -336,9 +334,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         state.rates_slice_mut().fill(S::zero());
         if M::JOINT_REPORT.closing.is_empty() {
             let mut all = M::JointVelocities::<S>::zeros();
-            for (&place, &rate) in self.equations.places.iter().zip(&rates) {
-                set(&mut all, place, rate);
-            }
+            self.equations.places.put(&rates, all.as_mut_slice());
             put_velocities::<M, S>(&all, &mut state);
             return Ok(state);
         }
@@ -363,18 +359,10 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     }
 }
 
-/// The place in the account of angles of what a joint turns by.
-fn place_of<M: JointRates>(motion: &JointMotion) -> Option<usize> {
-    if !matches!(motion.freedom, Freedom::Turn { .. }) {
-        return None;
-    }
-    let mut joints = M::REPORT.joints.iter();
-    turns::place_of::<M>(joints.position(|joint| joint.name == motion.joint)?)
-}
-
 /// Numbers that a state may hold.
+#[inline]
 fn given<S: Real, const N: usize>(numbers: [S; N]) -> Result<SVector<S, N>, Fault> {
-    if numbers.iter().all(|number| number.is_finite()) {
+    if are_finite(&numbers) {
         Ok(SVector::from(numbers))
     } else {
         Err(Fault::Step(StepFault::StateNotFinite))

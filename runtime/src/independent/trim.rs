@@ -77,7 +77,7 @@ where
         let places = &self.equations.places;
         let mut numbers = [0; K];
         for (place, held) in held.places()?.into_iter().enumerate() {
-            let number = chosen(places, held)?;
+            let number = chosen(&places[..], held)?;
             if numbers.iter().take(place).any(|&known| known == number) {
                 return Err(AnalysisFault::ChosenTwice { joint: held.1 }.into());
             }
@@ -86,7 +86,7 @@ where
         let sought: [Varied<M>; K] = sought.map(Into::into);
         let mut adjusted = [Adjusted::Value(0); K];
         for (adjusted, sought) in adjusted.iter_mut().zip(&sought) {
-            *adjusted = sought.adjusted(places)?;
+            *adjusted = sought.adjusted(&places[..])?;
         }
         let tolerance = S::EPSILON.powf(0.75);
         let mut set = (*self, self.rates(guess));
