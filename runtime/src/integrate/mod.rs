@@ -560,5 +560,5 @@ impl<S: Real> TimeSpan<S> {
 /// Room for a slope of a state: zeros, which cost less than a copy where one is written.
 #[inline(always)]
 fn room_for<S: Scalar, X: Vector<S>>(state: &X) -> X {
-    state.zip(state, |_, _| S::zero())
+    state.room()
 }

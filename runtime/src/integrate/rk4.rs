@@ -64,14 +64,14 @@ impl<S: Scalar, Y: System<S>> OneStep<S, Y> for Rk4 {
         let sixth = S::constant(1.0 / 6.0) * step;
         let third = sixth + sixth;
         if Y::State::PLUS_IS_COSTLY {
-            let mut second = room_for(state);
-            let mut penultimate = room_for(state);
-            let mut last = room_for(state);
-            let [midway, end] = state.plus_once_and_twice(half, first);
+            let (mut second, mut penultimate) = (room_for(state), room_for(state));
+            let (mut last, mut at) = (room_for(state), room_for(state));
+            let (mut midway, mut end) = (room_for(state), room_for(state));
+            midway.set_plus_once_and_twice(&mut end, state, (half, first));
             system.stage(time + half, &midway, &mut second)?;
-            let at = state.plus_beside(&midway, (half, first), [(half, &second)]);
+            at.set_plus_beside((state, &midway), (half, first), [(half, &second)]);
             system.stage(time + half, &at, &mut penultimate)?;
-            let at = state.plus_beside(&end, (step, first), [(step, &penultimate)]);
+            at.set_plus_beside((state, &end), (step, first), [(step, &penultimate)]);
             system.stage(time + step, &at, &mut last)?;
             let terms = [
                 (sixth, first),
@@ -79,7 +79,8 @@ impl<S: Scalar, Y: System<S>> OneStep<S, Y> for Rk4 {
                 (third, &penultimate),
                 (sixth, &last),
             ];
-            return Ok(state.plus_beside(&end, (step, first), terms));
+            at.set_plus_beside((state, &end), (step, first), terms);
+            return Ok(at);
         }
         let mut slope = room_for(state);
         let mut next = state.plus([(sixth, first)]);

@@ -220,11 +220,7 @@ impl<T: Real, const L: usize> Scalar for Lanes<T, L> {
         let mut turns = [[Self::splat(T::zero()); 2]; N];
         if angles.iter().fold(true, |all, angle| all & small(angle)) {
             for (turn, angle) in turns.iter_mut().zip(angles) {
-                if N > 1 {
-                    of_small_apart(angle, turn);
-                } else {
-                    *turn = of_small(*angle);
-                }
+                *turn = of_small(*angle);
             }
         } else {
             for (turn, angle) in turns.iter_mut().zip(angles) {
@@ -245,13 +241,6 @@ fn of_small<T: Real, const L: usize>(angle: Lanes<T, L>) -> [Lanes<T, L>; 2] {
     }
 }
 
-/// One of several angles. It is called: of a loop over angles compilers make vectors of several
-/// angles, by gathers and scatters.
-#[inline(never)]
-fn of_small_apart<T: Real, const L: usize>(angle: &Lanes<T, L>, turn: &mut [Lanes<T, L>; 2]) {
-    *turn = of_small(*angle);
-}
-
 /// Sine and versine of an angle in each lane, whatever the others are.
 #[cold]
 #[inline(never)]
@@ -259,8 +248,8 @@ fn lane_by_lane<T: Real, const L: usize>(angle: &Lanes<T, L>) -> [Lanes<T, L>; 2
     let mut turn = [Lanes::splat(T::zero()); 2];
     let [sine, versine] = &mut turn;
     let places = sine.0.iter_mut().zip(&mut versine.0);
-    for ((sine, versine), &angle) in places.zip(&angle.0) {
-        [[*sine, *versine]] = T::sines_and_versines(&[angle]);
+    for ((sine, versine), turn) in places.zip(T::sines_and_versines(&angle.0)) {
+        [*sine, *versine] = turn;
     }
     turn
 }

@@ -36,21 +36,15 @@ where
         if self.going == 0 {
             return Ok(());
         }
-        let next = self.at_once(dt)?;
-        let normalised = if self.equations.are_sound(&next) {
-            P::Coordinates::normalised_near(&next)
-        } else {
-            None
-        };
-        let before = self.state;
-        match normalised {
-            Some(next) => self.state = next,
-            None => self.apart(next, dt),
+        let mut next = self.at_once(dt)?;
+        if !self.equations.are_sound(&next) || !P::Coordinates::normalise_near(&mut next) {
+            self.apart(&mut next, dt);
         }
-        let turned = turns::carry(&before, Lanes::splat(dt), &mut self.state);
+        let turned = turns::carry(&self.state, Lanes::splat(dt), &mut next);
         if !Lanes::are_within(&[turned], turns::FAR) {
-            self.count(&before, dt);
+            self.count(&mut next, dt);
         }
+        self.state = next;
         if self.going > 0 {
             self.clock = clock;
         }
@@ -60,16 +54,16 @@ where
     /// Counts the turns of angles, lane by lane.
     #[cold]
     #[inline(never)]
-    fn count(&mut self, before: &StateOfAll<P, L>, dt: T) {
+    fn count(&self, next: &mut StateOfAll<P, L>, dt: T) {
         for (lane, dynamics) in self.dynamics.iter().enumerate() {
-            let mut to: State<P> = state_of(&self.state, lane);
+            let mut to: State<P> = state_of(next, lane);
             let turned = to.turns().last().copied();
             if turned.is_none_or(|turned| turned <= T::constant(turns::FAR)) {
                 continue;
             }
-            let from: State<P> = state_of(before, lane);
+            let from: State<P> = state_of(&self.state, lane);
             dynamics.count_turns(&from, dt, &mut to);
-            put_state(&mut self.state, lane, &to);
+            put_state(next, lane, &to);
         }
     }
 
@@ -96,22 +90,22 @@ where
     /// What follows a step lane by lane: those in which it is sound are normalised, the others take
     /// it alone, and stop where that is refused.
     #[inline(never)]
-    fn apart(&mut self, mut next: StateOfAll<P, L>, dt: T) {
+    fn apart(&mut self, next: &mut StateOfAll<P, L>, dt: T) {
         let (time, before) = (self.clock.time(), self.going);
         let lanes = self.dynamics.iter_mut().zip(&mut self.stopped);
         for (lane, (dynamics, stopped)) in lanes.enumerate() {
             if stopped.is_some() {
                 continue;
             }
-            if self.equations.is_sound(lane, &next) {
-                let mut state = state_of(&next, lane);
+            if self.equations.is_sound(lane, next) {
+                let mut state = state_of(next, lane);
                 dynamics.renormalise(&mut state, None);
-                put_state(&mut next, lane, &state);
+                put_state(next, lane, &state);
                 continue;
             }
             let mut state: State<P> = state_of(&self.state, lane);
             match alone(&self.scheme, dynamics, (time, &mut state), dt) {
-                Ok(()) => put_state(&mut next, lane, &state),
+                Ok(()) => put_state(next, lane, &state),
                 Err(fault) => {
                     self.going -= 1;
                     *stopped = Some(SimulationError {
@@ -122,7 +116,6 @@ where
                 }
             }
         }
-        self.state = next;
         if self.going < before {
             self.take_equations();
         }

@@ -193,18 +193,21 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
     }
 
     #[inline(always)]
-    fn normalised_near<S: Scalar>(state: &M::State<S>) -> Option<M::State<S>> {
+    fn normalise_near<S: Scalar>(state: &mut M::State<S>) -> bool {
         if M::REPORT.auxiliaries > 0 {
-            return None;
+            return false;
         }
         let mut unit = *state;
         for body in M::REPORT.bodies {
             if body.kind == BodyKind::Rigid && !P::NORMALISED_RATES {
                 let coordinates = unit.coordinates_mut().as_mut_slice();
-                scale_near_unit_length(coordinates, body.coordinate + 3)?;
+                if scale_near_unit_length(coordinates, body.coordinate + 3).is_none() {
+                    return false;
+                }
             }
         }
-        Some(unit)
+        *state = unit;
+        true
     }
 
     #[inline(always)]

@@ -221,10 +221,10 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + Sealed + 'static {
         rates: Option<&mut Self::State<S>>,
     ) -> Option<S>;
 
-    /// The same state of numbers that cannot be compared; `None` where a length is not near 1 or
-    /// turns are counted.
+    /// The same of numbers that cannot be compared. Whether it could: where a length is not near 1
+    /// or turns are counted, the state stays as it is.
     #[doc(hidden)]
-    fn normalised_near<S: Scalar>(state: &Self::State<S>) -> Option<Self::State<S>>;
+    fn normalise_near<S: Scalar>(state: &mut Self::State<S>) -> bool;
 
     /// Calls with the bodies of a state, with Euler parameters as kernels read them.
     #[doc(hidden)]

@@ -276,15 +276,21 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
     }
 
     #[inline(always)]
-    fn normalised_near<S: Scalar>(state: &M::JointState<S>) -> Option<M::JointState<S>> {
+    fn normalise_near<S: Scalar>(state: &mut M::JointState<S>) -> bool {
         if M::JOINT_REPORT.rewraps || M::JOINT_REPORT.has_screws() {
-            return None;
+            return false;
+        }
+        if M::JOINT_REPORT.euler_parameters.is_empty() {
+            return true;
         }
         let mut unit = *state;
         for &place in M::JOINT_REPORT.euler_parameters {
-            scale_near_unit_length(unit.rest_slice_mut(), place)?;
+            if scale_near_unit_length(unit.rest_slice_mut(), place).is_none() {
+                return false;
+            }
         }
-        Some(unit)
+        *state = unit;
+        true
     }
 
     #[inline(always)]

@@ -5,12 +5,13 @@ mod tests;
 mod turning;
 
 use self::turning::{
-    LITTLE, turn_a_little_apart, turned, turned_a_little, turned_beside, turned_once_and_twice,
+    LITTLE, turn_a_little_apart, turn_apart, turn_once_and_twice_apart, turned, turned_a_little,
+    turned_beside, turned_once_and_twice,
 };
 use crate::math::scalar::{Real, Scalar};
 use crate::state::each::EachOfJoints;
 use crate::state::sums::{
-    greater, greatest, plus, shares, weighted_norm, zero_if_finite, zero_if_finite_after,
+    greater, greatest, plus, set_plus, shares, weighted_norm, zero_if_finite, zero_if_finite_after,
 };
 use crate::state::vector::{Vector, are_of_one_turn};
 
@@ -32,10 +33,10 @@ use crate::state::vector::{Vector, are_of_one_turn};
 ///   takes back what round-off did to the length before: it does not drift. A pair that was given
 ///   with an error `e` in its length has `1.5 e^2` after a turn; what is off by a tenth or more is
 ///   no angle.
-/// - [`Vector::plus_beside`], of which [`Rk4`](crate::Rk4) makes the later stages of a step and its
+/// - [`Vector::set_plus_beside`], of which [`Rk4`](crate::Rk4) makes the later stages of a step and its
 ///   end, turns a few pairs on from ones that are known by what the slopes differ by, where that is
 ///   0.0125 rad at most: a short series, so that the next evaluation waits less.
-///   [`Vector::plus_once_and_twice`], which leads to the first stage, does so with a pair that
+///   [`Vector::set_plus_once_and_twice`], which leads to the first stage, does so with a pair that
 ///   stands alone. The sums are the same, up to round-off; of an error of the length the latter
 ///   leaves half a square of the angle times as much beside the above.
 /// - [`Vector::weighted_norm`] measures the increment of an angle in radians, against
@@ -225,6 +226,14 @@ fn more_increments<
     sums
 }
 
+/// What a term of a sum turns pairs by.
+#[inline(always)]
+fn pairs_of<S: Scalar, const P: usize, const Q: usize, const U: usize, const A: usize>(
+    (factor, slope): (S, &JointState<S, P, Q, U, A>),
+) -> (S, &[[S; 2]; P]) {
+    (factor, &slope.pairs)
+}
+
 /// One, with the derivatives of the angle of a pair.
 fn a_radian<S: Real>([c, s]: [S; 2]) -> S {
     S::one() + (s * c.plain() - c * s.plain())
@@ -233,6 +242,16 @@ fn a_radian<S: Real>([c, s]: [S; 2]) -> S {
 impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const A: usize>
     JointState<S, TURNS, REST, RATES, A>
 {
+    /// Whether each of several pairs is called for: see [`Scalar::IS_WIDE`].
+    const IS_APART: bool = S::IS_WIDE && TURNS > 1;
+
+    /// Writes what is no pair of a sum.
+    #[inline(always)]
+    fn set_others<const K: usize>(&mut self, from: &Self, terms: [(S, &Self); K]) {
+        set_plus(&mut self.rest, &from.rest, &terms, |x| &x.rest);
+        set_plus(&mut self.rates, &from.rates, &terms, |x| &x.rates);
+    }
+
     /// The sum, of which the pairs are known.
     #[inline(always)]
     fn plus_with<const K: usize>(&self, pairs: [[S; 2]; TURNS], terms: [(S, &Self); K]) -> Self {
@@ -250,10 +269,25 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const
 {
     const PLUS_IS_COSTLY: bool = TURNS > 0;
 
+    /// Of many the operations count: the turns of a stage do not wait for each other. Measured, see
+    /// docs/decisions/006-turns-in-a-step.md.
+    const USES_NEAR: bool = TURNS > 0 && TURNS <= if S::SEVEN_DIGITS { 12 } else { 5 };
+
     type Each<T: Clone> = EachOfJoints<T, TURNS, REST, RATES>;
 
     fn each<T: Clone>(&self, value: T) -> EachOfJoints<T, TURNS, REST, RATES> {
         EachOfJoints::new(value)
+    }
+
+    #[inline(always)]
+    fn room(&self) -> Self {
+        let zero = S::zero();
+        Self {
+            pairs: [[zero; 2]; TURNS],
+            rest: [zero; REST],
+            rates: [zero; RATES],
+            turns: self.turns,
+        }
     }
 
     fn length(&self) -> usize {
@@ -316,40 +350,69 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const
 
     #[inline(always)]
     fn plus<const K: usize>(&self, terms: [(S, &Self); K]) -> Self {
+        if Self::IS_APART {
+            let mut sum = *self;
+            sum.set_plus(self, terms);
+            return sum;
+        }
         self.plus_with(turned(&self.pairs, &increments(&terms)), terms)
     }
 
     #[inline(always)]
-    fn plus_once_and_twice(&self, factor: S, direction: &Self) -> [Self; 2] {
-        let angles = increments(&[(factor, direction)]);
-        let [once, twice] = turned_once_and_twice(&self.pairs, &angles);
-        [
-            self.plus_with(once, [(factor, direction)]),
-            self.plus_with(twice, [(factor + factor, direction)]),
-        ]
+    fn set_plus<const K: usize>(&mut self, from: &Self, terms: [(S, &Self); K]) {
+        if !Self::IS_APART {
+            *self = from.plus(terms);
+            return;
+        }
+        for place in 0..TURNS {
+            turn_apart(&mut self.pairs, &from.pairs, place, &terms.map(pairs_of));
+        }
+        self.set_others(from, terms);
+    }
+
+    #[inline(always)]
+    fn set_plus_once_and_twice(
+        &mut self,
+        twice: &mut Self,
+        from: &Self,
+        (factor, direction): (S, &Self),
+    ) {
+        if !Self::USES_NEAR {
+            self.set_plus(from, [(factor, direction)]);
+            return;
+        }
+        if Self::IS_APART {
+            for place in 0..TURNS {
+                let to = [&mut self.pairs, &mut twice.pairs];
+                turn_once_and_twice_apart(to, &from.pairs, place, (factor, &direction.pairs));
+            }
+        } else {
+            let angles = increments(&[(factor, direction)]);
+            [self.pairs, twice.pairs] = turned_once_and_twice(&from.pairs, &angles);
+        }
+        self.set_others(from, [(factor, direction)]);
+        twice.set_others(from, [(factor + factor, direction)]);
     }
 
     /// Pairs go on from those that are known by little angles: that is less to compute, and what
     /// waits for the last slope is short.
     #[inline(always)]
-    fn plus_beside<const K: usize>(
-        &self,
-        near: &Self,
+    fn set_plus_beside<const K: usize>(
+        &mut self,
+        (from, near): (&Self, &Self),
         along: (S, &Self),
         terms: [(S, &Self); K],
-    ) -> Self {
-        // Of many the operations count: the turns of a stage do not wait for each other. Measured,
-        // see docs/decisions/006-turns-in-a-step.md.
-        let few = if S::SEVEN_DIGITS { 12 } else { 5 };
-        if TURNS > few {
-            return self.plus(terms);
+    ) {
+        if !Self::USES_NEAR {
+            self.set_plus(from, terms);
+            return;
         }
         let (factor, slope) = along;
         let angles = more_increments(increments(&[(-factor, slope)]), &terms);
         let mut pairs = near.pairs;
         if S::are_within(&angles, LITTLE) {
             for (pair, angle) in pairs.iter_mut().zip(&angles) {
-                if S::IS_WIDE && TURNS > 1 {
+                if Self::IS_APART {
                     turn_a_little_apart(pair, angle);
                 } else {
                     *pair = turned_a_little(*pair, *angle);
@@ -357,12 +420,13 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const
             }
         } else {
             let whole = increments(&terms);
-            let (from, angles) = (self.pairs.iter().zip(&whole), &angles);
+            let (from, angles) = (from.pairs.iter().zip(&whole), &angles);
             for ((pair, (&from, &whole)), &angle) in pairs.iter_mut().zip(from).zip(angles) {
                 *pair = turned_beside((*pair, angle), (from, whole));
             }
         }
-        self.plus_with(pairs, terms)
+        self.pairs = pairs;
+        self.set_others(from, terms);
     }
 
     #[inline(always)]

@@ -10,22 +10,51 @@ pub(crate) fn plus<S: Scalar, X, const N: usize>(
     part: impl Fn(&X) -> &[S; N],
 ) -> [S; N] {
     let mut result = *from;
-    for (factor, direction) in terms {
-        for (element, slope) in result.iter_mut().zip(part(direction)) {
-            // Lanes lie as vectors do.
-            if S::IS_WIDE && !S::HAS_LANES && N > 1 {
-                add_apart(element, slope, factor);
-            } else {
-                *element = slope.fused(*factor, *element);
-            }
-        }
-    }
+    set_plus(&mut result, from, terms, part);
     result
 }
 
+/// The same, written.
+#[inline(always)]
+pub(crate) fn set_plus<S: Scalar, X, const N: usize>(
+    to: &mut [S; N],
+    from: &[S; N],
+    terms: &[(S, &X)],
+    part: impl Fn(&X) -> &[S; N],
+) {
+    if S::IS_WIDE && N > 1 {
+        for place in 0..N {
+            add_apart(to, from, place, terms, &part);
+        }
+        return;
+    }
+    *to = *from;
+    for (factor, direction) in terms {
+        for (element, slope) in to.iter_mut().zip(part(direction)) {
+            *element = slope.fused(*factor, *element);
+        }
+    }
+}
+
+/// One of several: see [`Scalar::IS_WIDE`].
 #[inline(never)]
-fn add_apart<S: Scalar>(element: &mut S, slope: &S, factor: &S) {
-    *element = slope.fused(*factor, *element);
+fn add_apart<S: Scalar, X, const N: usize>(
+    to: &mut [S; N],
+    from: &[S; N],
+    place: usize,
+    terms: &[(S, &X)],
+    part: &impl Fn(&X) -> &[S; N],
+) {
+    let (Some(to), Some(&from)) = (to.get_mut(place), from.get(place)) else {
+        return;
+    };
+    let mut sum = from;
+    for (factor, direction) in terms {
+        if let Some(slope) = part(direction).get(place) {
+            sum = slope.fused(*factor, sum);
+        }
+    }
+    *to = sum;
 }
 
 /// [`Vector::weighted_norm`] of a part of a state.

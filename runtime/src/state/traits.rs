@@ -31,9 +31,19 @@ pub trait Vector<S: Scalar>: Clone {
     /// once.
     const PLUS_IS_COSTLY: bool = false;
 
+    /// Whether [`Vector::set_plus_beside`] goes on from the sum that is known.
+    const USES_NEAR: bool = false;
+
     /// `f(self[k], other[k])` for every element.
     #[must_use]
     fn zip(&self, other: &Self, f: impl FnMut(S, S) -> S) -> Self;
+
+    /// Room for another vector of this kind: zeros, which cost less than a copy where one is
+    /// written. What no integrator moves is as here.
+    #[must_use]
+    fn room(&self) -> Self {
+        self.zip(self, |_, _| S::zero())
+    }
 
     /// Calls `f` with every element, in order.
     fn for_each(&self, f: impl FnMut(S));
@@ -98,25 +108,38 @@ pub trait Vector<S: Scalar>: Clone {
         result
     }
 
-    /// [`Vector::plus`] of one direction, by a factor and by twice that factor: what these have in
-    /// common is computed once.
-    #[must_use]
-    fn plus_once_and_twice(&self, factor: S, direction: &Self) -> [Self; 2] {
-        [factor, factor + factor].map(|factor| self.plus([(factor, direction)]))
+    /// Writes [`Vector::plus`] of another vector here: numbers that are arrays make states large,
+    /// and each is then written once. What no integrator moves, see [`Vector::turns`], stays.
+    fn set_plus<const N: usize>(&mut self, from: &Self, terms: [(S, &Self); N]) {
+        *self = from.plus(terms);
     }
 
-    /// [`Vector::plus`] of directions that hardly differ from one for which the sum is known:
-    /// `near` is `self.plus([along])`. Where that helps, the result is `near` and what the
+    /// Writes [`Vector::plus`] of one direction, by a factor here, and by twice that factor: what
+    /// these have in common is computed once. The latter is for [`Vector::set_plus_beside`] alone:
+    /// nothing is written there where [`Vector::USES_NEAR`] is not said.
+    fn set_plus_once_and_twice(
+        &mut self,
+        twice: &mut Self,
+        from: &Self,
+        (factor, direction): (S, &Self),
+    ) {
+        self.set_plus(from, [(factor, direction)]);
+        if Self::USES_NEAR {
+            twice.set_plus(from, [(factor + factor, direction)]);
+        }
+    }
+
+    /// Writes [`Vector::plus`] of directions that hardly differ from one for which the sum is
+    /// known: `near` is `from.plus([along])`. Where that helps, the result is `near` and what the
     /// increments differ by.
-    #[must_use]
-    fn plus_beside<const N: usize>(
-        &self,
-        near: &Self,
+    fn set_plus_beside<const N: usize>(
+        &mut self,
+        (from, near): (&Self, &Self),
         along: (S, &Self),
         terms: [(S, &Self); N],
-    ) -> Self {
+    ) {
         let _ = (near, along);
-        self.plus(terms)
+        self.set_plus(from, terms);
     }
 
     /// `self + weight * (to - self) + sum of factor * direction`: on the way to another state, and

@@ -17,6 +17,48 @@ pub(super) fn turned<S: Scalar, const T: usize>(
     turned_by(pairs, &S::sines_and_versines(angles))
 }
 
+/// Writes a pair, turned by the sum of the increments of its angle. Of numbers that are several,
+/// each pair is called for: see [`Scalar::IS_WIDE`].
+#[inline(never)]
+pub(super) fn turn_apart<S: Scalar, const T: usize, const K: usize>(
+    to: &mut [[S; 2]; T],
+    from: &[[S; 2]; T],
+    place: usize,
+    terms: &[(S, &[[S; 2]; T]); K],
+) {
+    let (Some(to), Some(from)) = (to.get_mut(place), from.get(place)) else {
+        return;
+    };
+    let mut angle = -S::zero();
+    for (factor, slopes) in terms {
+        if let Some([rate, _]) = slopes.get(place) {
+            angle = rate.fused(*factor, angle);
+        }
+    }
+    let [turn] = S::sines_and_versines(&[angle]);
+    turn_one(from, &turn, to);
+}
+
+/// Writes a pair, turned by an increment of its angle, and by twice that.
+#[inline(never)]
+pub(super) fn turn_once_and_twice_apart<S: Scalar, const T: usize>(
+    to: [&mut [[S; 2]; T]; 2],
+    from: &[[S; 2]; T],
+    place: usize,
+    (factor, slopes): (S, &[[S; 2]; T]),
+) {
+    let [once, twice] = to.map(|pairs| pairs.get_mut(place));
+    let (Some(once), Some(twice), Some(from)) = (once, twice, from.get(place)) else {
+        return;
+    };
+    let Some([rate, _]) = slopes.get(place) else {
+        return;
+    };
+    let [turn] = S::sines_and_versines(&[rate.fused(factor, -S::zero())]);
+    turn_one(from, &turn, once);
+    turn_one(from, &versine::doubled(turn), twice);
+}
+
 /// A pair that is near, turned on by its angle if that is little, or else the one where all began
 /// by the whole angle: the same for a pair, whatever stands beside it.
 #[cold]
@@ -56,7 +98,7 @@ pub(super) fn turned_a_little<S: Scalar>(pair: [S; 2], angle: S) -> [S; 2] {
     [angle.fused(way_c, c), angle.fused(way_s, s)]
 }
 
-/// As [`turn_one_apart`].
+/// As [`turn_apart`].
 #[inline(never)]
 pub(super) fn turn_a_little_apart<S: Scalar>(pair: &mut [S; 2], angle: &S) {
     *pair = turned_a_little(*pair, *angle);
@@ -103,36 +145,20 @@ fn turned_by<S: Scalar, const T: usize>(pairs: &[[S; 2]; T], turns: &[[S; 2]; T]
 
 #[inline(always)]
 fn turn<S: Scalar>(pairs: &mut [[S; 2]], turns: &[[S; 2]]) {
-    let is_apart = S::IS_WIDE && pairs.len() > 1;
     for (pair, turn) in pairs.iter_mut().zip(turns) {
-        if is_apart {
-            turn_one_apart(pair, turn);
-        } else {
-            turn_one(pair, turn);
-        }
+        let from = *pair;
+        turn_one(&from, turn, pair);
     }
 }
 
-/// Of numbers that are several, each pair is called for: see [`Scalar::IS_WIDE`].
-#[inline(never)]
-fn turn_one_apart<S: Scalar>(pair: &mut [S; 2], turn: &[S; 2]) {
-    turn_one(pair, turn);
-}
-
 #[inline(always)]
-fn turn_one<S: Scalar>(pair: &mut [S; 2], &[sine, versine]: &[S; 2]) {
-    let [[c, s], [more_c, more_s]] = [*pair, stretch(*pair)];
+fn turn_one<S: Scalar>(from: &[S; 2], &[sine, versine]: &[S; 2], to: &mut [S; 2]) {
+    let [[c, s], [more_c, more_s]] = [*from, stretch(*from)];
     let (full_c, full_s) = (c + more_c, s + more_s);
-    *pair = [
+    *to = [
         c + versine.fused(-full_c, sine.fused(-full_s, more_c)),
         s + versine.fused(-full_s, sine.fused(full_c, more_s)),
     ];
-}
-
-/// As [`turn_one_apart`].
-#[inline(never)]
-fn double_apart<S: Scalar>(turn: &mut [S; 2]) {
-    *turn = versine::doubled(*turn);
 }
 
 /// Pairs, turned by angles and by twice these angles.
@@ -149,11 +175,7 @@ pub(super) fn turned_once_and_twice<S: Scalar, const T: usize>(
     let mut once = turned_by(pairs, &turns);
     // A loop, because `map` is called where much is compiled together.
     for turn in &mut turns {
-        if S::IS_WIDE && T > 1 {
-            double_apart(turn);
-        } else {
-            *turn = versine::doubled(*turn);
-        }
+        *turn = versine::doubled(*turn);
     }
     let mut twice = turned_by(pairs, &turns);
     if T == 1 && S::HAS_LANES {
