@@ -29,6 +29,7 @@
 mod balance;
 #[cfg(feature = "std")]
 mod base_parameters;
+mod carrying;
 mod choice;
 mod continuation;
 mod derived;

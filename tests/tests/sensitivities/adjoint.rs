@@ -4,7 +4,8 @@
 use holonom::error::{AnalysisFault, StartFault};
 use holonom::independent::Direction;
 use holonom::prelude::*;
-use holonom::{DormandPrince853, Forward, Heun, Kutta3, Midpoint};
+use holonom::sensitivity::Instant;
+use holonom::{DormandPrince853, Forward, Heun, Kutta3, Midpoint, Real, Scalar as _};
 
 /// A cart that a force pushes, with a pendulum.
 #[derive(Clone, Copy, Mechanism)]
@@ -249,6 +250,70 @@ fn of_a_crane_by_its_kernel() {
         none.err(),
         Some(Fault::Start(StartFault::Setting { .. }))
     ));
+}
+
+/// Products of the Hessian of a cost, by the kernel over numbers that carry derivatives, against
+/// differences of gradients; and it is symmetric.
+#[test]
+fn of_a_gradient_are_products_of_the_hessian() {
+    type Twice<'a> = Instant<'a, Crane, 1, Forward<f64, 2>>;
+
+    fn cost<S: Real>(instant: &Instant<'_, Crane, 1, S>) -> Forward<S, 4> {
+        let ([angle, way], [rate, speed]) = (instant.positions(), instant.rates()) else {
+            unreachable!("two coordinates")
+        };
+        match instant.controls() {
+            Some([push]) => Forward::constant(1e-2) * push * push * *rate,
+            None => *angle * *way * *way + *rate * *speed,
+        }
+    }
+
+    let (crane, h) = (Crane::new(0.8).expect("acceptable"), Crane::HANDLES);
+    let space = crane.coordinates((h.hinge, h.rail)).expect("both");
+    let start = space.state([0.4, 0.1], [-0.3, 0.2]).expect("regular");
+    let controls = controls::<10>();
+    let run = space.adjoint(StandardLagrange, Rk4::every(0.05));
+    let gradient = |controls: &[[f64; 1]; 10]| -> [f64; 10] {
+        let found = run.gradient(&start, [h.push], controls, [], cost);
+        let found = found.expect("regular").by_controls;
+        core::array::from_fn(|k| found[k][0])
+    };
+    let along = [3, 7];
+    let carrying = space.carrying::<2>();
+    let number = Forward::<f64, 2>::fixed;
+    let begin = carrying.state([0.4, 0.1].map(number), [-0.3, 0.2].map(number));
+    let varied = core::array::from_fn::<_, 10, _>(|k| {
+        let slopes = along.map(|place| f64::from(u8::from(place == k)));
+        [Forward::new(controls[k][0], slopes)]
+    });
+    let run_twice = carrying.adjoint(StandardLagrange, Rk4::every(number(0.05)));
+    let found = run_twice.gradient(
+        &begin.expect("regular"),
+        [h.push],
+        &varied,
+        [],
+        |instant: &Twice<'_>| cost(instant),
+    );
+    let found = found.expect("regular").by_controls;
+    let plain = gradient(&controls);
+    for (k, [slope]) in found.iter().enumerate() {
+        assert!(off(slope.value(), plain[k]) < 1e-14);
+        for (lane, place) in along.into_iter().enumerate() {
+            let [less, more] = [-1e-4, 1e-4].map(|by| {
+                let mut controls = controls;
+                controls[place][0] += by;
+                gradient(&controls)[k]
+            });
+            let difference = (more - less) / 2e-4;
+            let product = slope.derivatives()[lane];
+            assert!(
+                (product - difference).abs() < 1e-8,
+                "{k} {place}: {product} {difference}"
+            );
+        }
+    }
+    let entry = |row: usize, lane: usize| found[row][0].derivatives()[lane];
+    assert!((entry(7, 0) - entry(3, 1)).abs() < 1e-14 && entry(7, 0).abs() > 1e-4);
 }
 
 /// Against forward sensitivities to a constant input: the sum over the controls. The adjoint takes
