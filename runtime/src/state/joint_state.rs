@@ -33,9 +33,9 @@ use crate::state::vector::{Vector, are_of_one_turn};
 ///   takes back what round-off did to the length before: it does not drift. A pair that was given
 ///   with an error `e` in its length has `1.5 e^2` after a turn; what is off by a tenth or more is
 ///   no angle.
-/// - [`Vector::set_plus_beside`], of which [`Rk4`](crate::Rk4) makes the later stages of a step and its
-///   end, turns a few pairs on from ones that are known by what the slopes differ by, where that is
-///   0.0125 rad at most: a short series, so that the next evaluation waits less.
+/// - [`Vector::set_plus_beside`], of which [`Rk4`](crate::Rk4) makes the later stages of a step and
+///   its end, turns a few pairs on from ones that are known by what the slopes differ by, where
+///   that is 0.0125 rad at most: a short series, so that the next evaluation waits less.
 ///   [`Vector::set_plus_once_and_twice`], which leads to the first stage, does so with a pair that
 ///   stands alone. The sums are the same, up to round-off; of an error of the length the latter
 ///   leaves half a square of the angle times as much beside the above.

@@ -109,7 +109,8 @@ pub trait Vector<S: Scalar>: Clone {
     }
 
     /// Writes [`Vector::plus`] of another vector here: numbers that are arrays make states large,
-    /// and each is then written once. What no integrator moves, see [`Vector::turns`], stays.
+    /// and each is then written once. What no integrator moves, see [`Vector::turns`], has to be
+    /// the same in both, as [`Vector::room`] makes it.
     fn set_plus<const N: usize>(&mut self, from: &Self, terms: [(S, &Self); N]) {
         *self = from.plus(terms);
     }
