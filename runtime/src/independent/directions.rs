@@ -10,7 +10,6 @@ use super::points::moved;
 use super::{Equations, IndependentCoordinates};
 use crate::error::{AnalysisFault, Fault};
 use crate::forward::{Forward, lifted};
-use crate::math::quaternion::product;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::read;
 use crate::math::without_bounds::copied;
@@ -276,32 +275,30 @@ fn add<S: Scalar, const K: usize>(number: &mut Forward<S, K>, lane: usize, slope
 /// Euler parameters along directions, by those and the rotation matrix: with `R' = R w~` the rate
 /// of `p` is `p (0, w) / 2`.
 fn orientation_along<S: Scalar, const K: usize>(
-    p: &[S; 4],
+    &[a, b, c, d]: &[S; 4],
     rows: &[[Forward<S, K>; 3]; 3],
 ) -> [Forward<S, K>; 4] {
-    let mut slopes = [[S::zero(); K]; 4];
-    for lane in 0..K {
-        let slope = |number: &Forward<S, K>| number.derivatives().get(lane).copied();
-        // `(R^T R')` of row `k` and column `l`.
-        let entry = |k: usize, l: usize| {
-            rows.iter().fold(S::zero(), |sum, row| {
-                let (value, slope) = (row.get(k).map(Forward::value), row.get(l).and_then(slope));
-                value.zip(slope).map_or(sum, |(a, b)| a.fused(b, sum))
-            })
-        };
-        let half = S::constant(0.5);
-        let w = [(2, 1), (0, 2), (1, 0)].map(|(k, l)| half * entry(k, l));
-        let [x, y, z] = w;
-        let rate = product(p, &[S::zero(), x, y, z]);
-        for (slopes, rate) in slopes.iter_mut().zip(rate) {
-            if let Some(place) = slopes.get_mut(lane) {
-                *place = rate;
+    let half = S::constant(0.5);
+    // `(R^T R')` of row `k` and column `l`, halved.
+    let turn = |k: usize, l: usize| -> [S; K] {
+        let mut sum = [S::zero(); K];
+        for row in rows {
+            let (value, slopes) = (half * row[k].value(), row[l].derivatives());
+            for (sum, slope) in sum.iter_mut().zip(slopes) {
+                *sum = value.fused(slope, *sum);
             }
         }
-    }
-    let mut found = p.map(Forward::fixed);
-    for (number, slopes) in found.iter_mut().zip(slopes) {
-        *number = Forward::new(number.value(), slopes);
-    }
-    found
+        sum
+    };
+    let [x, y, z] = [turn(2, 1), turn(0, 2), turn(1, 0)];
+    let number = |value: S, [p, q, r]: [S; 3]| {
+        let slope = |lane: usize| p.fused(x[lane], q.fused(y[lane], r * z[lane]));
+        Forward::new(value, core::array::from_fn(slope))
+    };
+    [
+        number(a, [-b, -c, -d]),
+        number(b, [a, -d, c]),
+        number(c, [d, a, -b]),
+        number(d, [-c, b, a]),
+    ]
 }

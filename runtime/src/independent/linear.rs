@@ -187,6 +187,7 @@ where
         let values = values.map(|(number, &value)| (Part::Values, number, value.into()));
         let columns = positions.chain(rates).chain(values);
         let mut columns = columns.filter(|&(.., along)| P > 0 || !is_known(along));
+        let constants = lifted(&self.constants);
         loop {
             let columns: [_; LANES] = from_fn(|_| columns.next());
             let [Some(_), ..] = columns else { break };
@@ -194,8 +195,12 @@ where
             let moving = (state, &accelerations);
             let mut directed = directions.iter().flatten();
             let wanted = directed.any(|&along| !is_known(along)).then_some(outcome);
-            let (efforts, readings) =
-                self.along(moving, &partition, (&directions, wanted), &read)?;
+            let (efforts, readings) = self.along(
+                moving,
+                (&partition, &constants),
+                (&directions, wanted),
+                &read,
+            )?;
             let mut outcomes = efforts.map(|effort| effort.derivatives().map(|slope| -slope));
             if let Some(mass) = &mass {
                 mass.solve_each(&mut outcomes);
@@ -235,7 +240,7 @@ where
     fn along<const P: usize>(
         &self,
         (state, accelerations): (&M::JointState<S>, &[S; N]),
-        partition: &Partition<M, N, S>,
+        (partition, constants): (&Partition<M, N, S>, &M::Constants<Lifted<S>>),
         (directions, wanted): (&[Option<Along>; LANES], Option<Outcome>),
         read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Slopes<S, N, P>, Fault> {
@@ -252,14 +257,13 @@ where
         if P == 0 {
             return Ok((efforts, [Forward::zero(); P]));
         }
-        let constants = if there.is_varied {
-            M::prepare(&there.parameters)
-        } else {
-            lifted(&self.constants)
-        };
         let bodies = self.bodies_along(state, &there);
-        let view = View::new(&constants, there.equations.time, &bodies);
-        Ok((efforts, read(&view)))
+        let time = there.equations.time;
+        if there.is_varied {
+            let constants = M::prepare(&there.parameters);
+            return Ok((efforts, read(&View::new(&constants, time, &bodies))));
+        }
+        Ok((efforts, read(&View::new(constants, time, &bodies))))
     }
 }
 

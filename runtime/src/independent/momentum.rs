@@ -56,7 +56,7 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let mut shares = masses::<S, M>(&self.constants, &of).peekable();
         each_body::<S, M>(motions.as_slice(), |number, _, motion| {
             if let Some((_, mass)) = shares.next_if(|&(body, _)| body == number) {
-                centre = plus(&centre, &times(&motion.position, mass.quotient(total)));
+                centre = plus(&centre, &times(motion.position, mass.quotient(total)));
             }
         });
         let mut matrix = SMatrix::<S, 6, N>::from_element(S::zero());
@@ -65,14 +65,14 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             let Some((_, mass)) = masses.next_if(|&(body, _)| body == number) else {
                 return;
             };
-            let arm = minus(&motion.position, &centre);
+            let arm = minus(motion.position, &centre);
             let moments: [S; 3] = read(inertias.as_slice(), info.velocity + 3);
-            let moved = columns(&partition, axes.as_slice(), number, &motion.position);
+            let moved = columns(&partition, axes.as_slice(), number, motion.position);
             for (column, [vx, vy, vz, wx, wy, wz]) in moved.into_iter().enumerate() {
                 let linear = times(&[vx, vy, vz], mass);
                 let mut angular = cross(&arm, &linear);
                 if let Some((rows, _)) = motion.rotation {
-                    angular = plus(&angular, &turned(&rows, &moments, &[wx, wy, wz]));
+                    angular = plus(&angular, &turned(rows, &moments, &[wx, wy, wz]));
                 }
                 for (row, part) in linear.into_iter().chain(angular).enumerate() {
                     matrix[(row, column)] = matrix[(row, column)] + part;

@@ -59,7 +59,7 @@ fn position<S: Scalar, M: JointRates>(motions: &[S], body: usize, arm: &[S; 3]) 
                     x.fused(a, y.fused(b, z * c))
                 })
             });
-            found = plus(&motion.position, &turned);
+            found = plus(motion.position, &turned);
         }
     });
     found

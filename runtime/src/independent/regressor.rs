@@ -200,7 +200,7 @@ struct Twisting<S> {
 }
 
 impl<S: Scalar> Twisting<S> {
-    fn of(motion: &BodyMotion<Forward<S, 1>>, axes: [S; 4]) -> Self {
+    fn of(motion: &BodyMotion<'_, Forward<S, 1>>, axes: [S; 4]) -> Self {
         let values = |numbers: &[Forward<S, 1>; 3]| numbers.map(|number| number.value());
         let slopes = |numbers: &[Forward<S, 1>; 3]| {
             numbers.map(|number| {
@@ -214,8 +214,8 @@ impl<S: Scalar> Twisting<S> {
             None => (units(), still, still),
         };
         Self {
-            position: values(&motion.position),
-            acceleration: slopes(&motion.velocity),
+            position: values(motion.position),
+            acceleration: slopes(motion.velocity),
             rotation,
             axes,
             spin: rotate_back(&axes, &spin),

@@ -21,17 +21,6 @@ pub(crate) fn write<S: Scalar, const N: usize>(slice: &mut [S], place: usize, va
     }
 }
 
-/// Takes the first `N` elements off a slice; zeros, and all there is, where it ends before.
-#[inline(always)]
-pub(crate) fn take<S: Scalar, const N: usize>(slice: &mut &[S]) -> [S; N] {
-    let (first, rest) = match slice.split_first_chunk() {
-        Some((first, rest)) => (*first, rest),
-        None => ([S::zero(); N], &[][..]),
-    };
-    *slice = rest;
-    first
-}
-
 /// `a x b`.
 pub(crate) fn cross<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
     let [a1, a2, a3] = *a;

@@ -3,7 +3,7 @@
 use crate::error::StepFault;
 use crate::math::quaternion::{from_matrix, scale, scale_near_unit_length, to_unit_length};
 use crate::math::scalar::{Real, Scalar};
-use crate::math::vec3::{read, take, write};
+use crate::math::vec3::{read, write};
 use crate::mechanism::absolute::{nearer_sign, take_nearer_sign};
 use crate::mechanism::coordinates::{
     AbsoluteEquations, Coordinates, Equations, EquationsIn, First, Prepared, Relative, RightSide,
@@ -380,39 +380,60 @@ fn add<S: Scalar>(x: &mut [S], y: &[S]) {
 }
 
 /// How a body stands and moves, as [`JointCoordinates::body_motions`] has it.
-pub(crate) struct BodyMotion<S> {
+pub(crate) struct BodyMotion<'a, S> {
     /// The centre of mass (m, global).
-    pub(crate) position: [S; 3],
+    pub(crate) position: &'a [S; 3],
     /// Its velocity (m/s, global).
-    pub(crate) velocity: [S; 3],
+    pub(crate) velocity: &'a [S; 3],
     /// Of a rigid body the rotation from principal to global axes, row by row, and the angular
     /// velocity (rad/s) in principal axes.
-    pub(crate) rotation: Option<([[S; 3]; 3], [S; 3])>,
+    pub(crate) rotation: Option<(&'a [[S; 3]; 3], &'a [S; 3])>,
+}
+
+impl<'a, S> BodyMotion<'a, S> {
+    /// Of the first body of some, of which the others are left.
+    fn first(kind: BodyKind, rest: &mut &'a [S]) -> Option<Self> {
+        let (position, others) = rest.split_first_chunk()?;
+        let (velocity, mut others) = others.split_first_chunk()?;
+        let rotation = match kind {
+            BodyKind::Rigid => {
+                let (rows, more) = others.split_at_checked(9)?;
+                let (spin, more) = more.split_first_chunk()?;
+                others = more;
+                Some((rows.as_chunks().0.first_chunk()?, spin))
+            }
+            BodyKind::Particle => None,
+        };
+        *rest = others;
+        Some(Self {
+            position,
+            velocity,
+            rotation,
+        })
+    }
 }
 
 /// The motions of the bodies one after the other, and behind them the auxiliary variables and the
 /// user's own states.
 pub(crate) fn each_body<S: Scalar, M: JointCoordinates>(
     motions: &[S],
-    mut then: impl FnMut(usize, &'static BodyInfo, BodyMotion<S>),
+    mut then: impl FnMut(usize, &'static BodyInfo, BodyMotion<'_, S>),
 ) -> &[S] {
     // Of each body at once: parts of places that are not known cost a comparison for each.
     let mut rest = motions;
     for (number, body) in M::REPORT.bodies.iter().enumerate() {
-        let [x, y, z, u, v, w] = take(&mut rest);
-        let rotation = (body.kind == BodyKind::Rigid).then(|| {
-            let [a, b, c, d, e, f, g, h, i, p, q, r] = take(&mut rest);
-            ([[a, b, c], [d, e, f], [g, h, i]], [p, q, r])
-        });
-        let motion = BodyMotion {
-            position: [x, y, z],
-            velocity: [u, v, w],
-            rotation,
-        };
-        then(number, body, motion);
+        if let Some(motion) = BodyMotion::first(body.kind, &mut rest) {
+            then(number, body, motion);
+        }
     }
     let others = M::REPORT.auxiliaries + M::REPORT.states.len();
     rest.get(..others).unwrap_or(rest)
+}
+
+/// Writes numbers from a place on.
+fn put<S: Scalar>(numbers: &mut [S], place: usize, values: &[S]) {
+    let places = numbers.iter_mut().skip(place).zip(values);
+    places.for_each(|(place, &value)| *place = value);
 }
 
 /// How the bodies of joint coordinates stand and move.
@@ -459,26 +480,34 @@ pub(crate) fn bodies_by<S: Scalar, M: JointCoordinates>(
 ) -> M::State<S> {
     let mut bodies = M::State::from_parts(Array::zeros(), Array::zeros());
     let others = each_body::<S, M>(motions.as_slice(), |_, body, motion| {
-        let [x, y, z] = motion.position;
-        let [u, v, w] = motion.velocity;
-        let coordinates = bodies.coordinates_mut().as_mut_slice();
-        let Some((rows, [p, q, r])) = motion.rotation else {
-            write(coordinates, body.coordinate, [x, y, z]);
-            write(
-                bodies.velocities_mut().as_mut_slice(),
-                body.velocity,
-                [u, v, w],
+        put(
+            bodies.coordinates_mut().as_mut_slice(),
+            body.coordinate,
+            motion.position,
+        );
+        put(
+            bodies.velocities_mut().as_mut_slice(),
+            body.velocity,
+            motion.velocity,
+        );
+        if let Some((rows, spin)) = motion.rotation {
+            let place = body.coordinate + 3;
+            let euler_parameters = euler_parameters(place, rows);
+            put(
+                bodies.coordinates_mut().as_mut_slice(),
+                place,
+                &euler_parameters,
             );
-            return;
-        };
-        let [e0, e1, e2, e3] = euler_parameters(body.coordinate + 3, &rows);
-        write(coordinates, body.coordinate, [x, y, z, e0, e1, e2, e3]);
-        let velocities = bodies.velocities_mut().as_mut_slice();
-        write(velocities, body.velocity, [u, v, w, p, q, r]);
+            put(
+                bodies.velocities_mut().as_mut_slice(),
+                body.velocity + 3,
+                spin,
+            );
+        }
     });
     let coordinates = bodies.coordinates_mut().as_mut_slice();
     for (place, &value) in others.iter().enumerate() {
-        write(coordinates, M::REPORT.coordinates + place, [value]);
+        put(coordinates, M::REPORT.coordinates + place, &[value]);
     }
     bodies
 }
