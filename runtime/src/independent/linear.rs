@@ -7,7 +7,7 @@ use nalgebra::SMatrix;
 use super::IndependentCoordinates;
 use super::derived::Derived;
 use super::determined::Needs;
-use super::directions::Along;
+use super::directions::{Along, vary};
 use super::elimination::at;
 use super::equations::{Factors, not_finite};
 use super::linearised::Linearised;
@@ -22,7 +22,7 @@ use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_kernels::Freedom;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix, JointRates};
 use crate::mechanism::kernels::bodies_alone;
-use crate::state::vector::Array;
+use crate::state::vector::{Array, StateParts, Vector as _};
 
 /// The directions that one evaluation takes, as many as [`Lifted`] numbers have.
 const LANES: usize = 4;
@@ -244,6 +244,13 @@ where
         (directions, wanted): (&[Option<Along>; LANES], Option<Outcome>),
         read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
     ) -> Result<Slopes<S, N, P>, Fault> {
+        let is_still = M::JOINT_REPORT.closing.is_empty() && directions.iter().all(is_input::<M>);
+        if wanted.is_none() && is_still {
+            return Ok((
+                [Forward::zero(); N],
+                self.still((state, constants), directions, read),
+            ));
+        }
         let there = self.state_along(state, partition, directions)?;
         let mut efforts = [Forward::zero(); N];
         if wanted.is_some() {
@@ -264,6 +271,44 @@ where
             return Ok((efforts, read(&View::new(&constants, time, &bodies))));
         }
         Ok((efforts, read(&View::new(constants, time, &bodies))))
+    }
+
+    /// Readings along inputs, which move no body of a tree.
+    fn still<const P: usize>(
+        &self,
+        (state, constants): (&M::JointState<S>, &M::Constants<Lifted<S>>),
+        directions: &[Option<Along>; LANES],
+        read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
+    ) -> [Lifted<S>; P] {
+        let mut parameters: M::Parameters<Lifted<S>> = lifted(&self.parameters);
+        for (lane, direction) in directions.iter().enumerate() {
+            if let Some(Along::Value(place)) = *direction {
+                vary(parameters.as_mut_slice().get_mut(place), lane);
+            }
+        }
+        let mut constants = *constants;
+        M::take_inputs(&parameters, &mut constants);
+        let bodies = self.bodies(state);
+        let mut still = M::State::<Lifted<S>>::from_parts(
+            lifted(bodies.coordinates()),
+            lifted(bodies.velocities()),
+        );
+        let counted = still.turns_mut().iter_mut().zip(bodies.turns());
+        counted.for_each(|(place, &number)| *place = Forward::fixed(number));
+        let time = Forward::fixed(self.equations.time);
+        read(&View::new(&constants, time, &still))
+    }
+}
+
+/// Whether a direction is that of an input, or of nothing.
+fn is_input<M: JointRates>(direction: &Option<Along>) -> bool {
+    match *direction {
+        Some(Along::Value(place)) => M::REPORT
+            .values
+            .get(place)
+            .is_some_and(|value| value.is_input),
+        Some(_) => false,
+        None => true,
     }
 }
 

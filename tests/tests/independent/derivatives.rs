@@ -304,6 +304,11 @@ fn everything_that_a_tree_may_have() -> Result<(), Fault> {
         }
         assert!((found.c::<26>() - wanted.c::<26>()).amax() < 1e-13);
         assert!((found.d() - wanted.d()).amax() < 1e-13);
+        // Inputs move no body, but forces.
+        let found = with.linearise(&one, [h.torque, h.push], |view| [view.power()])?;
+        let wanted = without.linearise(&two, [g.torque, g.push], |view| [view.power()])?;
+        let (found, wanted) = (found.d(), wanted.d());
+        assert!(off(found.as_slice(), wanted.as_slice()) < 1e-13 && wanted.amax() > 1e-3);
     }
     Ok(())
 }
