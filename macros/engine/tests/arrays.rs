@@ -4,7 +4,7 @@
 mod common;
 
 use common::{checked, definition, generated, model, tokens};
-use holonom_engine::emit::report::{counts, describe};
+use holonom_engine::emit::report::{costs, describe};
 use holonom_engine::model::Model;
 use holonom_engine::plan::kernels::Kernels;
 use quote::ToTokens;
@@ -99,7 +99,7 @@ fn elements_are_what_single_fields_are() {
     );
 
     let [array_kernels, kernels] = [&array, &single].map(Kernels::new);
-    assert_eq!(counts(&array_kernels), counts(&kernels));
+    assert_eq!(costs(&array_kernels), costs(&kernels));
     let plan = describe(
         &array,
         &array_kernels

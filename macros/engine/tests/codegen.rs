@@ -4,7 +4,7 @@
 mod common;
 
 use common::{FAULTY, PENDULUM, SCENES, chain, generated, model, tokens};
-use holonom_engine::emit::report::{counts, describe};
+use holonom_engine::emit::report::{costs, describe};
 use holonom_engine::plan::candidates::choose;
 use holonom_engine::plan::kernels::{Kernels, evaluation};
 use holonom_engine::plan::system::Terms;
@@ -53,7 +53,8 @@ fn plans_and_counts() {
             &model.layout(),
         );
         text += &format!("{name}\n  {plan}\n");
-        for (kernel, count) in counts(&kernels) {
+        for (kernel, cost) in costs(&kernels) {
+            let count = cost.count;
             text += &format!(
                 "  {kernel}: {} = {} + {} * {} / {} sqrt, depth {}\n",
                 count.total(),

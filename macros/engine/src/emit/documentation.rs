@@ -3,9 +3,10 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::report::counts;
+use super::report::costs;
 use crate::model::{BodyKind, Element, Model, Number, Rank};
 use crate::plan::kernels::Kernels;
+use crate::symbolic::time::Cost;
 
 /// Documentation as attributes.
 #[must_use]
@@ -58,11 +59,14 @@ pub fn documentation(model: &Model, kernels: &Kernels) -> TokenStream {
         }
     }
     lines.push(String::new());
-    lines.push("| kernel | operations | + - | * | / | sqrt | functions | depth |".into());
-    lines.push("|---|---|---|---|---|---|---|---|".into());
-    for (name, count) in counts(kernels) {
+    lines.push(
+        "| kernel | operations | + - | * | / | sqrt | functions | depth | cycles (x86-64, AVX2) |"
+            .into(),
+    );
+    lines.push("|---|---|---|---|---|---|---|---|---|".into());
+    for (name, Cost { count, cycles }) in costs(kernels) {
         lines.push(format!(
-            "| {name} | {} | {} | {} | {} | {} | {} | {} |",
+            "| {name} | {} | {} | {} | {} | {} | {} | {} | {cycles} |",
             count.total(),
             count.additions,
             count.multiplications,

@@ -9,8 +9,8 @@ use super::writer::Writer;
 use crate::coordinates::kernels::{JointKernels, Meaning};
 use crate::model::Asked;
 use crate::symbolic::arena::Stage;
-use crate::symbolic::count::{Count, count};
 use crate::symbolic::equations::Kernel;
+use crate::symbolic::time::Cost;
 
 /// An index that may not be.
 pub(super) fn option(index: Option<usize>) -> TokenStream {
@@ -51,35 +51,40 @@ impl Writer<'_, JointKernels> {
             let names = names.join(", ");
             text += &format!("\nEquations that remain: {rows}, of {names}.\n");
         }
-        text += "\n| kernel | operations | longest chain |\n|---|---|---|\n";
-        for (name, count) in self.counts().into_iter().chain(self.asked_counts()) {
-            text += &format!("| {name} | {} | {} |\n", count.total(), count.depth);
+        text += "\n| kernel | operations | longest chain | cycles (x86-64, AVX2) |\n|---|---|---|---|\n";
+        for (name, cost) in self.costs().into_iter().chain(self.asked_costs()) {
+            let Cost { count, cycles } = cost;
+            text += &format!(
+                "| {name} | {} | {} | {cycles} |\n",
+                count.total(),
+                count.depth
+            );
         }
         quote!(#[doc = #text])
     }
 
     /// Name and cost of each evaluation, and then of each without multipliers, if there are any.
-    fn counts(&self) -> Vec<(String, Count)> {
+    fn costs(&self) -> Vec<(String, Cost)> {
         let kernels = self.kernels;
         let rates = kernels.turns + kernels.rest + kernels.velocities;
         let rows = kernels.rows.len();
         let evaluations = kernels.evaluations.iter().map(|evaluation| {
             let Kernel { arena, outputs } = &evaluation.kernel;
             let name = evaluation_name(evaluation.terms);
-            (name, count(arena, outputs, Stage::State))
+            (name, Cost::of(arena, outputs, Stage::State))
         });
         let with_rows = kernels.evaluations.iter().filter(|_| rows > 0);
         let alone = with_rows.map(|evaluation| {
             let Kernel { arena, outputs } = &evaluation.kernel;
             let needed = [&outputs[..rates], &outputs[rates + rows..]].concat();
             let name = format!("rates {}", terms_name(evaluation.terms));
-            (name, count(arena, &needed, Stage::State))
+            (name, Cost::of(arena, &needed, Stage::State))
         });
         evaluations.chain(alone).collect()
     }
 
     /// Word and cost of what is asked for.
-    fn asked_counts(&self) -> Vec<(String, Count)> {
+    fn asked_costs(&self) -> Vec<(String, Cost)> {
         let asked = self.kernels.joint_rates.iter().flat_map(|of| &of.asked);
         let asked = asked.map(|(asked, kernel)| (*asked, kernel));
         let derivatives = self.kernels.derivatives.iter();
@@ -89,11 +94,11 @@ impl Writer<'_, JointKernels> {
         let rates = self.kernels.joint_rates.iter();
         let forward = rates.filter_map(|of| Some((Asked::Forward, of.forward.as_ref()?)));
         let all = asked.chain(forward).chain(derivatives).chain(adjoint);
-        let counts = all.map(|(asked, Kernel { arena, outputs })| {
+        let costs = all.map(|(asked, Kernel { arena, outputs })| {
             let name = asked.word().into();
-            (name, count(arena, outputs, Stage::State))
+            (name, Cost::of(arena, outputs, Stage::State))
         });
-        counts.collect()
+        costs.collect()
     }
 
     pub(super) fn report(&self) -> TokenStream {
@@ -132,10 +137,10 @@ impl Writer<'_, JointKernels> {
             quote!(#facade::__private::JointCounter { element: #element, coordinate: #place })
         });
         let states = state_infos(self.model, first + kernels.auxiliaries, facade);
-        let counts = self.counts().into_iter();
-        let counts = counts.map(|(name, count)| kernel(&name, count, facade));
-        let asked = self.asked_counts().into_iter();
-        let asked = asked.map(|(name, count)| kernel(&name, count, facade));
+        let costs = self.costs().into_iter();
+        let costs = costs.map(|(name, cost)| kernel(&name, cost, facade));
+        let asked = self.asked_costs().into_iter();
+        let asked = asked.map(|(name, cost)| kernel(&name, cost, facade));
         let balls = &kernels.balls;
         let (auxiliaries, rewraps) = (kernels.auxiliaries, kernels.rewraps);
         let determines = kernels.determines;
@@ -144,7 +149,7 @@ impl Writer<'_, JointKernels> {
                 motions: &[#(#links),*],
                 closing: &[#(#closing),*],
                 rows: &[#(#rows),*],
-                kernels: &[#(#counts),*],
+                kernels: &[#(#costs),*],
                 asked: &[#(#asked),*],
                 euler_parameters: &[#(#balls),*],
                 counters: &[#(#counters),*],

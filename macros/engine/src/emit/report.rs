@@ -15,17 +15,18 @@ use crate::plan::readouts::Marker;
 use crate::plan::system::Terms;
 use crate::plan::time::ExplicitTime;
 use crate::symbolic::arena::{Input, Node, Stage};
-use crate::symbolic::count::{Count, count};
+use crate::symbolic::count::Count;
 use crate::symbolic::equations::Kernel;
+use crate::symbolic::time::Cost;
 use crate::symbolic::vector::Frame;
 
 /// Name and cost of every kernel that is called at run time, in the order of the report.
 #[must_use]
-pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
-    let of = |kernel: &Kernel| count(&kernel.arena, &kernel.outputs, Stage::State);
-    let mut counts = vec![];
+pub fn costs(kernels: &Kernels) -> Vec<(String, Cost)> {
+    let of = |kernel: &Kernel| Cost::of(&kernel.arena, &kernel.outputs, Stage::State);
+    let mut costs = vec![];
     for evaluation in &kernels.evaluations {
-        counts.push((evaluation_name(evaluation.terms), of(&evaluation.kernel)));
+        costs.push((evaluation_name(evaluation.terms), of(&evaluation.kernel)));
     }
     for (name, kernel) in [
         ("constraints", &kernels.constraints),
@@ -37,24 +38,24 @@ pub fn counts(kernels: &Kernels) -> Vec<(String, Count)> {
         ("potential energy", &kernels.potential_energy),
         ("coordinate rates", &kernels.coordinate_rates),
     ] {
-        counts.push((name.into(), of(kernel)));
+        costs.push((name.into(), of(kernel)));
     }
     if !kernels.state_rates.outputs.is_empty() {
-        counts.push(("state rates".into(), of(&kernels.state_rates)));
+        costs.push(("state rates".into(), of(&kernels.state_rates)));
     }
     if !kernels.readouts.energies.is_empty() {
-        counts.push(("power".into(), of(&kernels.power)));
+        costs.push(("power".into(), of(&kernels.power)));
     }
     for solver in &kernels.solvers {
-        let solve = count(&solver.arena, &solver.solution, Stage::RightHandSide);
+        let solve = Cost::of(&solver.arena, &solver.solution, Stage::RightHandSide);
         let suffix = if solver.terms == Terms::Compliant {
             ", compliant"
         } else {
             ""
         };
-        counts.push((format!("solve{suffix}"), solve));
+        costs.push((format!("solve{suffix}"), solve));
     }
-    counts
+    costs
 }
 
 /// The name of an evaluation in the report.
@@ -127,9 +128,13 @@ fn option(place: Option<usize>) -> TokenStream {
 }
 
 /// A kernel by its name and what it costs.
-pub(super) fn kernel(name: &str, count: Count, facade: &TokenStream) -> TokenStream {
+pub(super) fn kernel(
+    name: &str,
+    Cost { count, cycles }: Cost,
+    facade: &TokenStream,
+) -> TokenStream {
     let operations = operations(count, facade);
-    quote!(#facade::__private::Kernel { name: #name, operations: #operations })
+    quote!(#facade::__private::Kernel { name: #name, operations: #operations, cycles: #cycles })
 }
 
 fn operations(count: Count, facade: &TokenStream) -> TokenStream {
@@ -247,8 +252,8 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             }
         }
     });
-    let counts = counts(kernels).into_iter();
-    let counts = counts.map(|(name, count)| kernel(&name, count, facade));
+    let costs = costs(kernels).into_iter();
+    let costs = costs.map(|(name, cost)| kernel(&name, cost, facade));
     let Layout {
         coordinates,
         auxiliaries,
@@ -292,7 +297,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             degrees_of_freedom: #degrees_of_freedom,
             time: #time,
             curved: #curved,
-            kernels: &[#(#counts),*],
+            kernels: &[#(#costs),*],
             plan: #plan,
         }
     }

@@ -10,6 +10,7 @@ use quote::quote;
 use super::rows::{ArrayElement, unpack};
 use crate::model::Curve;
 use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
+use crate::symbolic::uses::{Fused, Uses};
 use crate::syntax::words::local;
 
 /// How values of an earlier stage, and inputs, reach the code.
@@ -134,7 +135,7 @@ pub(super) fn of_spline(Curve { spline, derivative }: Curve) -> Ident {
 struct Writer<'a, E> {
     arena: &'a Arena,
     environment: &'a mut E,
-    is_fused: Vec<bool>,
+    fused: Fused,
     /// The nodes that stand where they are used.
     is_nested: Vec<bool>,
     /// Those of them that are written: tokens, what they refer to, and their operations.
@@ -181,8 +182,8 @@ pub(super) fn lines(
     let mut writer = Writer {
         arena,
         environment,
-        is_fused: uses.fused_products(),
-        is_nested: uses.nested(),
+        fused: uses.fused_products(),
+        is_nested: nested(&uses),
         nested: BTreeMap::new(),
         lines: Lines {
             statements: Vec::with_capacity(live.len()),
@@ -223,83 +224,31 @@ fn in_blocks(lines: &Lines, outputs: &[Expr]) -> TokenStream {
         .collect()
 }
 
-/// How often nodes are used.
-struct Uses<'a> {
-    arena: &'a Arena,
-    live: &'a [usize],
-    uses: Vec<u32>,
-    is_own: Vec<bool>,
-}
-
-impl<'a> Uses<'a> {
-    fn new(arena: &'a Arena, live: &'a [usize], outputs: &[Expr]) -> Self {
-        let mut uses = vec![0_u32; arena.len()];
-        let mut is_own = vec![false; arena.len()];
-        for &place in live {
-            is_own[place] = true;
-            let node = arena.node(place);
-            let written = if matches!(node, Node::Clamp(_)) { 3 } else { 1 };
-            for operand in node.operands() {
-                uses[operand.node()] += written;
-            }
-        }
-        // What is an output is used besides.
-        for output in outputs {
-            uses[output.node()] += 2;
-        }
-        Self {
-            arena,
-            live,
-            uses,
-            is_own,
+/// Operations without a name of their own that one node alone uses, which is near.
+fn nested(uses: &Uses<'_>) -> Vec<bool> {
+    let arena = uses.arena;
+    let mut number = vec![0; arena.len()];
+    for (k, &place) in uses.live.iter().enumerate() {
+        number[place] = k;
+    }
+    let mut is_nested = vec![false; arena.len()];
+    for (k, &place) in uses.live.iter().enumerate() {
+        for operand in arena.node(place).operands() {
+            let operand = operand.node();
+            is_nested[operand] = uses.is_own[operand]
+                && uses.uses[operand] == 1
+                && k - number[operand] <= NEAR
+                && arena.node(operand).is_operation()
+                && arena.label(operand).is_none();
         }
     }
-
-    /// Products that one sum alone uses, one for each sum: they are written there, as a fused
-    /// multiply-add.
-    fn fused_products(&self) -> Vec<bool> {
-        let arena = self.arena;
-        let fusible = |x: Expr| {
-            let is_product = matches!(arena.get(x), Node::Multiply(..));
-            is_product && self.is_own[x.node()] && self.uses[x.node()] == 1
-        };
-        let mut is_fused = vec![false; arena.len()];
-        for &place in self.live {
-            match arena.node(place) {
-                Node::Add(_, b) if fusible(b) => is_fused[b.node()] = true,
-                Node::Add(a, _) if fusible(a) => is_fused[a.node()] = true,
-                _ => {}
-            }
-        }
-        is_fused
-    }
-
-    /// Operations without a name of their own that one node alone uses, which is near.
-    fn nested(&self) -> Vec<bool> {
-        let arena = self.arena;
-        let mut number = vec![0; arena.len()];
-        for (k, &place) in self.live.iter().enumerate() {
-            number[place] = k;
-        }
-        let mut is_nested = vec![false; arena.len()];
-        for (k, &place) in self.live.iter().enumerate() {
-            for operand in arena.node(place).operands() {
-                let operand = operand.node();
-                is_nested[operand] = self.is_own[operand]
-                    && self.uses[operand] == 1
-                    && k - number[operand] <= NEAR
-                    && arena.node(operand).is_operation()
-                    && arena.label(operand).is_none();
-            }
-        }
-        is_nested
-    }
+    is_nested
 }
 
 impl<E: Environment> Writer<'_, E> {
     fn node(&mut self, place: usize) {
         let value = match self.arena.node(place) {
-            Node::Multiply(..) if self.is_fused[place] => return,
+            Node::Multiply(..) if self.fused.contains(place) => return,
             Node::Constant(_) => return,
             Node::Input(input) => {
                 let value = self.environment.input(input);
@@ -409,19 +358,8 @@ impl<E: Environment> Writer<'_, E> {
         });
     }
 
-    /// The operand of a sum that is fused into it, and the other one.
-    fn fused_operand(&self, a: Expr, b: Expr) -> Option<(Expr, Expr)> {
-        if self.is_fused[b.node()] {
-            Some((b, a))
-        } else if self.is_fused[a.node()] {
-            Some((a, b))
-        } else {
-            None
-        }
-    }
-
     fn sum(&mut self, a: Expr, b: Expr) -> TokenStream {
-        if let Some((product, other)) = self.fused_operand(a, b)
+        if let Some((product, other)) = self.fused.operand(a, b)
             && let Node::Multiply(x, y) = self.arena.get(product)
         {
             let x = if product.is_negative() { -x } else { x };

@@ -63,4 +63,6 @@ pub(crate) mod start;
 pub(crate) mod table;
 pub(crate) mod tangent;
 pub mod tape;
+pub mod time;
+pub(crate) mod uses;
 pub mod vector;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use holonom_engine::emit::report::counts;
+use holonom_engine::emit::report::costs;
 use holonom_engine::model::Model;
 use holonom_engine::plan::kernels::Kernels;
 use holonom_engine::plan::system::Terms;
@@ -88,8 +88,10 @@ fn worked_out(item: &ItemStruct) -> (Vec<(String, usize)>, Named) {
     let kernels = Kernels::new(&model);
     let state = State::described(&model, &kernels);
     let found = evaluated(&model, &kernels, Terms::Plain, &state);
-    let counts = counts(&kernels).into_iter();
-    let counts = counts.map(|(name, count)| (name, count.total())).collect();
+    let counts = costs(&kernels).into_iter();
+    let counts = counts
+        .map(|(name, cost)| (name, cost.count.total()))
+        .collect();
     (counts, named(&model, &found.solution))
 }
 
