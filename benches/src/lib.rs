@@ -10,6 +10,8 @@ pub mod baselines;
 pub mod compare;
 #[cfg(feature = "ensemble")]
 pub mod ensemble;
+#[cfg(feature = "estimate")]
+pub mod estimate;
 #[cfg(feature = "extremes")]
 pub mod extremes;
 pub mod measures;

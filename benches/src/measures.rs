@@ -45,6 +45,12 @@ pub const ARMS: Measures = Measures {
     feature: "arms",
     seconds: [Some(140), Some(140)],
 };
+/// `study estimate`.
+pub const ESTIMATE: Measures = Measures {
+    name: "estimate",
+    feature: "estimate",
+    seconds: [None, None],
+};
 /// `study trade`.
 pub const TRADE: Measures = Measures {
     name: "trade",

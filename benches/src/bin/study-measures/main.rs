@@ -9,6 +9,8 @@ mod arms;
 mod comparison;
 #[cfg(feature = "ensemble")]
 mod ensemble;
+#[cfg(feature = "estimate")]
+mod estimate;
 #[cfg(feature = "extremes")]
 mod extremes;
 #[cfg(feature = "show")]
@@ -46,6 +48,9 @@ enum Study {
     /// starts nearby as well, and the lines of Rust that run it.
     #[cfg(feature = "trade")]
     Recommend(trade::Recommend),
+    /// The cycles of kernels that reports tell, beside those that they take.
+    #[cfg(feature = "estimate")]
+    Estimate(estimate::Estimate),
     /// Where the numerics stop to hold: motions with closed forms, swept to where they break. An
     /// interrupted map goes on with the same command.
     #[cfg(feature = "extremes")]
@@ -70,6 +75,8 @@ fn main() -> ExitCode {
         Study::Trade(arguments) => trade::study(arguments),
         #[cfg(feature = "trade")]
         Study::Recommend(arguments) => trade::recommend(arguments),
+        #[cfg(feature = "estimate")]
+        Study::Estimate(arguments) => estimate::study(arguments),
         #[cfg(feature = "extremes")]
         Study::Extremes(arguments) => extremes::study(arguments),
         #[cfg(feature = "ensemble")]

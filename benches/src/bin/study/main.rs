@@ -1,9 +1,10 @@
 //! The studies of the workspace: `cargo run --release --bin study` reproduces chapter 15 of Flores
 //! (2015), `study compare` shows what an evaluation costs, `study arms` what the equations of
-//! motion of robots cost beside other programs, and `study trade` what accuracy costs.
-//! `study recommend` says which setting does, `study extremes` where the numerics stop to hold,
-//! `study ensemble` what many rows of drawn parameters give, `study show` how a problem moves. All
-//! but the first are a program of their own, which is built where it is asked for.
+//! motion of robots cost beside other programs, `study estimate` how right the cycles are that
+//! reports tell, and `study trade` what accuracy costs. `study recommend` says which setting does,
+//! `study extremes` where the numerics stop to hold, `study ensemble` what many rows of drawn
+//! parameters give, `study show` how a problem moves. All but the first are a program of their own,
+//! which is built where it is asked for.
 
 #![forbid(unsafe_code)]
 
@@ -37,6 +38,8 @@ enum Study {
     Compare(Handed),
     /// What the equations of motion of two arms cost, beside Pinocchio and CasADi.
     Arms(Handed),
+    /// The cycles of kernels that reports tell, beside those that they take.
+    Estimate(Handed),
     /// What accuracy costs: a problem with every setting.
     Trade(Handed),
     /// Which setting does for an error or a time, and the lines of Rust that run it.
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
         None => chapter15::study(&arguments.chapter15).map(|()| ExitCode::SUCCESS),
         Some(Study::Compare(handed)) => measures::COMPARE.run(handed),
         Some(Study::Arms(handed)) => measures::ARMS.run(handed),
+        Some(Study::Estimate(handed)) => measures::ESTIMATE.run(handed),
         Some(Study::Trade(handed)) => measures::TRADE.run(handed),
         Some(Study::Recommend(handed)) => measures::RECOMMEND.run(handed),
         Some(Study::Extremes(handed)) => measures::EXTREMES.run(handed),
