@@ -14,7 +14,7 @@ fn counts<M: JointCoordinates>() -> [usize; 3] {
 #[test]
 fn operations() {
     assert_eq!(counts::<Ur5>(), [79, 253, 37]);
-    assert_eq!(counts::<Panda>(), [368, 598, 142]);
+    assert_eq!(counts::<Panda>(), [368, 653, 142]);
     assert_eq!(counts::<FourBar>(), [7, 34, 0]);
     assert_eq!(counts::<SliderCrank>(), [10, 34, 2]);
     assert_eq!(counts::<Bricard>(), [28, 130, 7]);

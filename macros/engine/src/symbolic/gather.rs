@@ -7,17 +7,27 @@
 use super::arena::{Arena, Expr, Node, Stage};
 use super::count::count;
 use super::equations::Kernel;
+use super::time::{Processor, time};
 
 impl Kernel {
     /// Takes common numbers out of sums, if that leaves fewer operations, with those on the longest
-    /// path counted twice. `whole` nodes stay: something else is put in their place later, and what
-    /// is made of a sum taken apart would not be replaced.
+    /// path counted twice, and takes no longer. `whole` nodes stay: something else is put in their
+    /// place later, and what is made of a sum taken apart would not be replaced.
     pub(crate) fn gather(&mut self, whole: &[Expr]) {
         let gathered = gathered(&mut self.arena, &self.outputs, whole);
         let cost = |outputs: &[Expr]| count(&self.arena, outputs, Stage::State).weighted();
-        if cost(&gathered) < cost(&self.outputs) {
+        if cost(&gathered) < cost(&self.outputs) && !self.is_slower(&gathered) {
             self.outputs = gathered;
         }
+    }
+
+    /// Whether other outputs take longer, by more than estimates are wrong about two forms of one
+    /// kernel. A number that comes out of one sum after the other makes their chain longer.
+    fn is_slower(&self, outputs: &[Expr]) -> bool {
+        /// A twentieth: smaller differences were not found again by measurements.
+        const PARTS: usize = 20;
+        let call = |outputs| time(&self.arena, outputs, Stage::State, &Processor::X86_64_V3).call;
+        PARTS * call(outputs) > (PARTS + 1) * call(&self.outputs)
     }
 }
 
