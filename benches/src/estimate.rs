@@ -369,23 +369,23 @@ pub fn table(measured: &Measured) -> Table {
     let close = |row: &&Row| (ratio(row) - 1.0).abs() <= CLOSE;
     let (all, close) = (long.clone().count(), long.filter(close).count());
     let columns = [
-        "kernel",
+        "",
         "operations",
-        "longest chain",
-        "estimate (cycles)",
-        "measured (cycles)",
+        "chain",
+        "estimate",
+        "cycles",
         "ratio",
-        "measured (ns)",
-        "not waiting (ns)",
+        "ns",
+        "overlapped",
     ];
     Table {
         caption: "Cycles of a call, as the report tells them and as they are".into(),
         columns: columns.map(String::from).into(),
         rows: measured.rows.iter().map(line).collect(),
         note: format!(
-            "Of {all} kernels of at least {MANY} operations, the estimates of {close} are within {:.0} % of what was measured. A call waits for the one before; \
-             last column: calls that do not. Times are the least of all turns, by the clock of the thread's processor. A cycle takes {} ns: a chain of fused \
-             multiply-adds takes four each. Compiled for {}.",
+            "Of {all} kernels of at least {MANY} operations, the estimates of {close} are within {:.0} % of what was measured. Chain: the longest one of dependent \
+             operations. Estimate: cycles, as the report tells them. Cycles and ns: a call that waits for the one before; overlapped: one that does not (ns). Times are \
+             the least of all turns, by the clock of the thread's processor. A cycle takes {} ns: a chain of fused multiply-adds takes four each. Compiled for {}.",
             100.0 * CLOSE,
             fixed(cycle, 4),
             Target::CURRENT

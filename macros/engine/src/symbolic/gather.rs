@@ -7,7 +7,8 @@
 use super::arena::{Arena, Expr, Node, Stage};
 use super::count::count;
 use super::equations::Kernel;
-use super::time::{Processor, time};
+use super::processor::Processor;
+use super::time::time;
 
 impl Kernel {
     /// Takes common numbers out of sums, if that leaves fewer operations, with those on the longest

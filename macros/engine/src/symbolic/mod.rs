@@ -37,6 +37,7 @@
 //! inputs and coefficients is left to the kernels (`Stage::with`), so either can change alone.
 //! Module `repeated` finds what a kernel does for many joints or bodies in the same way.
 //! Module `gather` goes through the outputs once more and takes common numbers out of sums.
+//! Module `time` estimates what a call takes on a processor, of which `processor` has tables.
 
 pub mod arena;
 pub mod bind;
@@ -53,8 +54,10 @@ mod gather;
 mod index;
 mod kept;
 pub mod left_out;
+mod line;
 pub mod motion;
 mod node;
+pub mod processor;
 pub mod repeated;
 pub mod rotation;
 pub mod scene;

@@ -1,5 +1,6 @@
 use super::super::arena::{Arena, Expr, Input, Stage};
-use super::{Cost, Order, Processor, Time, time};
+use super::super::processor::{Order, Processor};
+use super::{Cost, Time, time};
 
 /// So many inputs.
 fn inputs(arena: &mut Arena, count: u32) -> Vec<Expr> {

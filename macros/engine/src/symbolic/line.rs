@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::Processor;
-use crate::symbolic::arena::{Arena, Expr, Node, Stage};
-use crate::symbolic::uses::Uses;
+use super::arena::{Arena, Expr, Node, Stage};
+use super::processor::Processor;
+use super::uses::Uses;
 
 /// An operation as it is written, on the results of others.
 pub(super) struct Step {
@@ -51,7 +51,7 @@ impl Line {
                 Node::Add(a, b) => match fused.operand(a, b) {
                     Some((product, other)) => {
                         operands = arena.get(product).operands().chain([other]).collect();
-                        (processor.fused(), &mut line.multiplied)
+                        (processor.product_with_sum(), &mut line.multiplied)
                     }
                     None => (processor.sum, &mut line.summed),
                 },
