@@ -137,7 +137,7 @@ pub fn kernels() -> Result<Vec<Estimated>, StudyError> {
     let of = [
         ("pendulum", all::<RodPendulum> as fn() -> _),
         ("heavy top", all::<HeavyTop>),
-        ("cart and pole", all::<CartPole>),
+        ("cart-pole", all::<CartPole>),
         ("four-bar", all::<FourBar>),
         ("slider-crank", all::<SliderCrank>),
         ("governor", all::<FlyballGovernor>),
@@ -194,7 +194,7 @@ fn by_bodies<M: JointCoordinates + Default>() -> Result<Vec<Estimated>, Fault> {
     ) -> Result<Option<Estimated>, Fault> {
         let constants = M::prepare(&M::default().parameters::<f64>()?);
         let coefficients = M::coefficients(&constants, &STABILISATION);
-        let place = (states[0].clone(), M::Multipliers::<f64>::zeros());
+        let place = (states[0], M::Multipliers::<f64>::zeros());
         let reported = (M::REPORT.kernels, name);
         evaluation(reported, states, place, move |state, (rates, forces)| {
             let (constants, coefficients) = (&constants, &coefficients);
@@ -217,6 +217,7 @@ fn by_joints<M: HasMassMatrix + HasInverse + Default>() -> Result<Vec<Estimated>
     let mut dynamics = dynamics.joint_coordinates();
     let start = dynamics.initial_state()?;
     let states = &states(&mut dynamics, start)?;
+    // As long as the program lives, which measures and ends: every kernel reads them.
     let constants = &*Box::leak(Box::new(M::prepare_joints(&M::default().parameters()?)));
     let coefficients = M::joint_coefficients(constants, &STABILISATION, &Array::zeros());
     // Without equations that close a loop, there is no evaluation without multipliers.
@@ -225,7 +226,7 @@ fn by_joints<M: HasMassMatrix + HasInverse + Default>() -> Result<Vec<Estimated>
     } else {
         "rates standard"
     };
-    let place = (states[0].clone(), ());
+    let place = (states[0], ());
     let reported = (M::JOINT_REPORT.kernels, kernel);
     let rates = evaluation(reported, states, place, move |state, (rates, ())| {
         M::joint_rates_into::<f64, Plain>(constants, &coefficients, 0.0, state, rates)
@@ -376,7 +377,7 @@ pub fn table(measured: &Measured) -> Table {
         "cycles",
         "ratio",
         "ns",
-        "overlapped",
+        "apart",
     ];
     Table {
         caption: "Cycles of a call, as the report tells them and as they are".into(),
@@ -384,7 +385,7 @@ pub fn table(measured: &Measured) -> Table {
         rows: measured.rows.iter().map(line).collect(),
         note: format!(
             "Of {all} kernels of at least {MANY} operations, the estimates of {close} are within {:.0} % of what was measured. Chain: the longest one of dependent \
-             operations. Estimate: cycles, as the report tells them. Cycles and ns: a call that waits for the one before; overlapped: one that does not (ns). Times are \
+             operations. Estimate: cycles, as the report tells them. Cycles and ns: a call that waits for the one before; apart: one that does not (ns). Times are \
              the least of all turns, by the clock of the thread's processor. A cycle takes {} ns: a chain of fused multiply-adds takes four each. Compiled for {}.",
             100.0 * CLOSE,
             fixed(cycle, 4),
