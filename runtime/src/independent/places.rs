@@ -80,10 +80,15 @@ impl<const N: usize> Places<N> {
     }
 }
 
-/// The place in the account of angles of what a rate turns.
+/// The place in the account of angles of what a rate turns. A joint has one account: of several
+/// turns none is known to be that of its angle.
 fn counted<M: JointRates>(rate: usize) -> Option<usize> {
     let (_, motion) = M::JOINT_REPORT.motion_of_rate(rate)?;
-    if !matches!(motion.freedom, Freedom::Turn { .. }) {
+    let motions = M::JOINT_REPORT.motions.iter();
+    let turns = motions.filter(|other| {
+        other.joint == motion.joint && matches!(other.freedom, Freedom::Turn { .. })
+    });
+    if !matches!(motion.freedom, Freedom::Turn { .. }) || turns.count() != 1 {
         return None;
     }
     let mut joints = M::REPORT.joints.iter();

@@ -156,11 +156,15 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
             return self.moved(from, &begin, &way, rates);
         }
         // In steps, so that what is geared to a coordinate is taken along over any number of turns.
-        let widest = self.angles(&way).into_iter().fold(S::zero(), S::max);
+        let angles = self.angles(&way);
+        let widest = angles.into_iter().fold(S::zero(), S::max);
         let steps = (widest * S::constant(1.0 / STRIDE)).to_f64();
         if steps > MANY {
             return Err(Fault::Assembly(AssemblyFault::WayEnds {
-                joint: Some(self.joint(0)),
+                joint: angles
+                    .iter()
+                    .position(|&angle| angle == widest)
+                    .map(|number| self.joint(number)),
                 share: MANY / steps,
             }));
         }

@@ -109,3 +109,47 @@ fn single_precision() -> Result<(), Fault> {
     assert!((a.cast::<f64>() - b).norm() < 1e-6 * b.norm());
     Ok(())
 }
+
+holonom::joint! {
+    /// Two turns about axes that cross, and the angle of one: no joint of the library has both.
+    pub joint Cross(i, j; point: Point, axis_i: Axis, axis_j: Axis) {
+        j.point - i.point;
+        dot(i.axis_i, j.axis_j);
+        angle about axis_i;
+        motion turn axis_i at point, turn axis_j at point;
+    }
+}
+
+#[derive(Clone, Copy, Debug, Mechanism)]
+#[mechanism(coordinates = "joints", kernels = [mass])]
+struct Gimbal {
+    #[body(mass = 1.0, inertia = [0.1, 0.2, 0.3], position = [0.0, 0.0, 0.5])]
+    upper: Body,
+    #[joint(
+        between = [ground, upper],
+        point = [0.0, 0.0, 0.0],
+        axis_i = [1.0, 0.0, 0.0],
+        axis_j = [0.0, 1.0, 0.0]
+    )]
+    cross: Cross,
+}
+
+/// The account of turns is that of the joint's angle: the other turn is told from `-pi` to `pi`.
+#[test]
+fn of_several_turns_none_is_counted_for_another() -> Result<(), Fault> {
+    let (gimbal, h) = (Gimbal::default(), Gimbal::HANDLES);
+    for order in [[0, 1], [1, 0]] {
+        let chosen = order.map(|number| Motion::of(h.cross, number));
+        let space = gimbal.coordinates(chosen)?;
+        for set in [[-0.5, 4.0], [0.2, 7.0], [3.0, -3.0]] {
+            let state = space.state(set, [0.0, 0.0])?;
+            for (found, wanted) in space.positions(&state)?.iter().zip(set) {
+                let turns = (found - wanted) / core::f64::consts::TAU;
+                assert!(
+                    (turns - turns.round()).abs() < 1e-14 && found.abs() <= core::f64::consts::PI
+                );
+            }
+        }
+    }
+    Ok(())
+}
