@@ -4,8 +4,9 @@ use core::mem::replace;
 
 use super::controlled::controlled;
 use super::controller::{Controller, FIRST_SHARE};
+use super::jacobian::Jacobian;
 use super::linear::Factors;
-use super::newton::{Age, Newton, Progress, remember_columns};
+use super::newton::{Age, Newton, Progress};
 use super::record::{Reached, reached};
 use super::{Advance, Counts, Integration, Memory, Slopes, System, TimeSpan, named};
 use crate::error::{Fault, StepFault};
@@ -96,7 +97,7 @@ pub struct BdfIntegration<S: Real, X: Vector<S>> {
     reached: Reached<S, X>,
     /// The backward differences of the state, from the first: increments.
     differences: [X; DIFFERENCES],
-    jacobian: X::Each<X>,
+    jacobian: Jacobian<S, X>,
     age: Age,
     factors: Factors<S, X, X>,
     /// The shift `alpha / h` that the factors are for.
@@ -137,7 +138,7 @@ impl<S: Real, X: Vector<S>> BdfIntegration<S, X> {
             step,
             order: 1,
             equal: 0,
-            jacobian: state.each(nothing.clone()),
+            jacobian: Jacobian::new(&nothing),
             age: Age::Unknown,
             factors: Factors::new(&nothing),
             factorised: None,
@@ -200,7 +201,6 @@ impl<S: Real, X: Vector<S>> BdfIntegration<S, X> {
         system: &mut Y,
         end: S,
     ) -> Result<Option<Trial<S, X>>, Fault> {
-        let length = self.reached.state.length();
         let shift = S::constant(leading(self.order)).quotient(self.step);
         let predicted = self.predicted();
         let history = GAMMA.iter().skip(1).take(self.order);
@@ -214,7 +214,9 @@ impl<S: Real, X: Vector<S>> BdfIntegration<S, X> {
             system.stage(end, &state, &mut slope)?;
             let right = slope.zip(&history, |f, psi| f - psi);
             let right = right.zip(&change, |x, change| change.fused(-shift, x));
-            let more = self.factors.solve(right, length);
+            let more = self
+                .factors
+                .solve(right, &self.jacobian, &self.reached.state);
             let progress = newton.take(self.size(&state, &more));
             if progress == Progress::Fails {
                 return Ok(None);
@@ -242,9 +244,10 @@ impl<S: Real, X: Vector<S>> BdfIntegration<S, X> {
             let slope = &mut self.reached.slope;
             let mut counted = Slopes::counted(system, &mut self.reached.counts);
             counted.stage(end, &predicted, slope)?;
-            counted.jacobian(end, &predicted, slope, &mut self.jacobian)?;
-            self.age = Age::Present;
             self.factorised = None;
+            let at = (&predicted, &*slope);
+            self.jacobian.evaluate(&mut counted, end, at)?;
+            self.age = Age::Present;
         }
         let shift = S::constant(leading(self.order)).quotient(self.step);
         if self.factorised != Some(shift) {
@@ -343,8 +346,7 @@ impl<S: Real, X: Vector<S>> Integration<S, X> for BdfIntegration<S, X> {
             memory.vector(difference);
         }
         self.age.remember(memory);
-        let length = self.reached.state.length();
-        remember_columns::<S, X>(memory, &mut self.jacobian, length);
+        self.jacobian.remember(memory, &self.reached.state);
         self.factorised = None;
         // A file may hold any number.
         self.order = self.order.clamp(1, HIGHEST);

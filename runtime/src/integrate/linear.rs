@@ -1,135 +1,10 @@
 //! Systems of linear equations `(shift I - J) x = b` between slopes, for implicit methods.
 
+use super::column::Column;
+use super::jacobian::Jacobian;
+use super::reduced;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
-
-/// A complex number: real and imaginary part.
-pub(super) type Complex<S> = [S; 2];
-
-/// A column of numbers, made of slopes `X`.
-pub(super) trait Column<S: Real, X: Vector<S>>: Clone {
-    type Number: Copy;
-
-    /// A column of real numbers.
-    fn real(column: X) -> Self;
-    fn at(&self, row: usize) -> Self::Number;
-    fn set(&mut self, row: usize, value: Self::Number);
-    /// `self + factor * other`.
-    fn add(&mut self, factor: Self::Number, other: &Self);
-    fn scale(&mut self, factor: Self::Number);
-    /// The absolute value of a number, or up to 1.5 times that.
-    fn size(of: Self::Number) -> S;
-    fn zero() -> Self::Number;
-    fn sum(a: Self::Number, b: Self::Number) -> Self::Number;
-    fn inverse(of: Self::Number) -> Self::Number;
-    fn negative(of: Self::Number) -> Self::Number;
-}
-
-impl<S: Real, X: Vector<S>> Column<S, X> for X {
-    type Number = S;
-
-    fn real(column: X) -> X {
-        column
-    }
-
-    fn at(&self, row: usize) -> S {
-        self.element(row)
-    }
-
-    fn set(&mut self, row: usize, value: S) {
-        self.set_element(row, value);
-    }
-
-    fn add(&mut self, factor: S, other: &X) {
-        *self = self.zip(other, |x, y| y.fused(factor, x));
-    }
-
-    fn scale(&mut self, factor: S) {
-        *self = self.zip(self, |x, _| factor * x);
-    }
-
-    fn size(of: S) -> S {
-        of.abs()
-    }
-
-    fn zero() -> S {
-        S::zero()
-    }
-
-    fn sum(a: S, b: S) -> S {
-        a + b
-    }
-
-    fn inverse(of: S) -> S {
-        of.reciprocal()
-    }
-
-    fn negative(of: S) -> S {
-        -of
-    }
-}
-
-/// A column of complex numbers: real and imaginary parts.
-#[derive(Clone)]
-pub(super) struct ComplexColumn<X> {
-    pub(super) real: X,
-    pub(super) imaginary: X,
-}
-
-impl<S: Real, X: Vector<S>> Column<S, X> for ComplexColumn<X> {
-    type Number = Complex<S>;
-
-    fn real(column: X) -> Self {
-        Self {
-            imaginary: column.zip(&column, |_, _| S::zero()),
-            real: column,
-        }
-    }
-
-    fn at(&self, row: usize) -> Complex<S> {
-        [self.real.element(row), self.imaginary.element(row)]
-    }
-
-    fn set(&mut self, row: usize, [real, imaginary]: Complex<S>) {
-        self.real.set_element(row, real);
-        self.imaginary.set_element(row, imaginary);
-    }
-
-    fn add(&mut self, [a, b]: Complex<S>, other: &Self) {
-        let Self { real, imaginary } = other;
-        self.real = self.real.zip(real, |x, y| y.fused(a, x));
-        self.real = self.real.zip(imaginary, |x, y| y.fused(-b, x));
-        self.imaginary = self.imaginary.zip(imaginary, |x, y| y.fused(a, x));
-        self.imaginary = self.imaginary.zip(real, |x, y| y.fused(b, x));
-    }
-
-    fn scale(&mut self, [a, b]: Complex<S>) {
-        let real = self.real.zip(&self.imaginary, |x, y| a * x - b * y);
-        self.imaginary = self.imaginary.zip(&self.real, |y, x| a * y + b * x);
-        self.real = real;
-    }
-
-    fn size([a, b]: Complex<S>) -> S {
-        a.abs() + b.abs()
-    }
-
-    fn zero() -> Complex<S> {
-        [S::zero(); 2]
-    }
-
-    fn sum([a, b]: Complex<S>, [c, d]: Complex<S>) -> Complex<S> {
-        [a + c, b + d]
-    }
-
-    fn inverse([a, b]: Complex<S>) -> Complex<S> {
-        let square = a.fused(a, b * b);
-        [a.quotient(square), (-b).quotient(square)]
-    }
-
-    fn negative([a, b]: Complex<S>) -> Complex<S> {
-        [-a, -b]
-    }
-}
 
 /// The inverse of a matrix as a product of eliminations, one for every column, with the largest
 /// number of a column as its pivot (Gauss and Jordan).
@@ -146,6 +21,8 @@ pub(super) struct Factors<S: Real, X: Vector<S>, C: Column<S, X>> {
     eliminations: X::Each<C>,
     /// The row of the pivot of every column.
     rows: X::Each<usize>,
+    /// The inverse of the shift, where only the velocities are solved for.
+    reduced: Option<C::Number>,
 }
 
 impl<S: Real, X: Vector<S>, C: Column<S, X>> Clone for Factors<S, X, C> {
@@ -153,6 +30,7 @@ impl<S: Real, X: Vector<S>, C: Column<S, X>> Clone for Factors<S, X, C> {
         Self {
             eliminations: self.eliminations.clone(),
             rows: self.rows.clone(),
+            reduced: self.reduced,
         }
     }
 }
@@ -163,12 +41,28 @@ impl<S: Real, X: Vector<S>, C: Column<S, X>> Factors<S, X, C> {
         Self {
             eliminations: like.each(C::real(like.clone())),
             rows: like.each(0),
+            reduced: None,
         }
     }
 
     /// Factorises `shift I - jacobian`. `false` if a pivot vanishes or is not finite.
     #[must_use]
-    pub(super) fn factorise(&mut self, shift: C::Number, jacobian: &X::Each<X>, like: &X) -> bool {
+    pub(super) fn factorise(
+        &mut self,
+        shift: C::Number,
+        jacobian: &Jacobian<S, X>,
+        like: &X,
+    ) -> bool {
+        let Some(kinematics) = jacobian.kinematics() else {
+            self.reduced = None;
+            return self.factorise_all(shift, &jacobian.columns, like);
+        };
+        let factors = (&mut self.eliminations, &mut self.rows);
+        self.reduced = reduced::factorise(factors, shift, &kinematics, like);
+        self.reduced.is_some()
+    }
+
+    fn factorise_all(&mut self, shift: C::Number, jacobian: &X::Each<X>, like: &X) -> bool {
         /// Of the shift, what a pivot among the coordinates must have.
         const LEAST: f64 = 0.01;
         let (length, coordinates) = (like.length(), like.coordinate_count());
@@ -213,8 +107,13 @@ impl<S: Real, X: Vector<S>, C: Column<S, X>> Factors<S, X, C> {
         true
     }
 
-    /// The solution for a right-hand side.
-    pub(super) fn solve(&self, mut right: C, length: usize) -> C {
+    /// The solution for a right-hand side. The Jacobian is that of the factors.
+    pub(super) fn solve(&self, mut right: C, jacobian: &Jacobian<S, X>, like: &X) -> C {
+        if let (Some(inverse), Some(kinematics)) = (self.reduced, jacobian.kinematics()) {
+            let factors = (&self.eliminations, &self.rows);
+            return reduced::solve(factors, inverse, &kinematics, (right, like));
+        }
+        let length = like.length();
         for column in 0..length {
             self.eliminate(column, &mut right);
         }
@@ -241,9 +140,12 @@ impl<S: Real, X: Vector<S>, C: Column<S, X>> Factors<S, X, C> {
 mod tests {
     use core::array::from_fn;
 
-    use super::{Complex, ComplexColumn, Factors};
-    use crate::state::each::EachOfState;
+    use super::Factors;
+    use crate::integrate::column::{Column, Complex, ComplexColumn};
+    use crate::integrate::jacobian::Jacobian;
     use crate::state::vector::{State, Vector};
+
+    type X = State<f64, 4, 3>;
 
     /// Numbers without a pattern.
     fn scattered(seed: u64) -> impl FnMut() -> f64 {
@@ -256,20 +158,21 @@ mod tests {
 
     #[test]
     fn solutions_satisfy_their_equations_wherever_the_pivots_are() {
-        type X = State<f64, 4, 3>;
         for seed in 1..40 {
             let mut number = scattered(seed);
             let mut column =
                 || X::from_parts([(); 4].map(|()| number()), [(); 3].map(|()| number()));
             let like = column();
-            let mut jacobian = like.each(like);
+            let mut jacobian = Jacobian::new(&like);
             for k in 0..7 {
-                jacobian[k] = column();
+                jacobian.columns[k] = column();
             }
+            jacobian.look(&like);
+            assert!(jacobian.kinematics().is_none());
             let (shift, right) = ([0.3, -0.7], [column(), column()]);
             let mut real = Factors::<f64, X, X>::new(&like);
             assert!(real.factorise(shift[0], &jacobian, &like));
-            let x = real.solve(right[0], 7);
+            let x = real.solve(right[0], &jacobian, &like);
             let mut complex = Factors::<f64, X, ComplexColumn<X>>::new(&like);
             assert!(complex.factorise(shift, &jacobian, &like));
             let z = complex.solve(
@@ -277,12 +180,13 @@ mod tests {
                     real: right[0],
                     imaginary: right[1],
                 },
-                7,
+                &jacobian,
+                &like,
             );
             for row in 0..7 {
                 let product = |v: &X| -> f64 {
                     (0..7)
-                        .map(|k| jacobian[k].element(row) * v.element(k))
+                        .map(|k| jacobian.columns[k].element(row) * v.element(k))
                         .sum()
                 };
                 let rest = shift[0] * x.element(row) - product(&x) - right[0].element(row);
@@ -302,13 +206,13 @@ mod tests {
     fn kinematic(
         coordinates: f64,
         seed: u64,
-    ) -> (State<f64, 4, 3>, EachOfState<State<f64, 4, 3>, 4, 3>) {
+    ) -> (State<f64, 4, 3>, Jacobian<f64, State<f64, 4, 3>>) {
         let mut number = scattered(seed);
         let like = State::from_parts([0.0; 4], [0.0; 3]);
-        let mut jacobian = like.each(like);
+        let mut jacobian = Jacobian::new(&like);
         for column in 0..7 {
             let by_coordinate = column < 4;
-            jacobian[column] = State::from_parts(
+            jacobian.columns[column] = State::from_parts(
                 from_fn(|row| {
                     let own = if row == column { coordinates } else { 0.0 };
                     let velocity = if row + 4 == column { 1.0 } else { 0.0 };
@@ -344,11 +248,11 @@ mod tests {
                 let mut number = scattered(seed + 100);
                 let right =
                     State::from_parts([(); 4].map(|()| number()), [(); 3].map(|()| number()));
-                let x = factors.solve(right, 7);
+                let x = factors.solve(right, &jacobian, &like);
                 for row in 0..7 {
                     let terms = |k: usize| {
                         let diagonal = if k == row { shift } else { 0.0 };
-                        (diagonal - jacobian[k].element(row)) * x.element(k)
+                        (diagonal - jacobian.columns[k].element(row)) * x.element(k)
                     };
                     let sum: f64 = (0..7).map(terms).sum();
                     let size: f64 = (0..7).map(|k| terms(k).abs()).sum();
@@ -362,9 +266,68 @@ mod tests {
         }
     }
 
+    /// The solution of a matrix whose zeros are known is that of the same matrix as any other.
+    fn agrees<C: Column<f64, X>>(shift: C::Number, right: impl Fn(X) -> C, seed: u64) -> [C; 2] {
+        let (like, mut jacobian) = kinematic(0.0, seed);
+        // A coordinate of two velocities, and one of none.
+        jacobian.columns[5].set_element(0, -0.5);
+        let mut number = scattered(seed + 100);
+        let right = right(X::from_parts(
+            [(); 4].map(|()| number()),
+            [(); 3].map(|()| number()),
+        ));
+        [false, true].map(|is_known| {
+            if is_known {
+                jacobian.look(&like);
+            }
+            assert_eq!(jacobian.kinematics().is_some(), is_known);
+            let mut factors = Factors::<f64, X, C>::new(&like);
+            assert!(factors.factorise(shift, &jacobian, &like));
+            factors.solve(right.clone(), &jacobian, &like)
+        })
+    }
+
+    #[test]
+    fn velocities_are_solved_for_by_themselves() {
+        for seed in 1..40 {
+            let [all, reduced] = agrees::<X>(40.0, |right| right, seed);
+            let complex = |real: X| ComplexColumn {
+                real,
+                imaginary: real.zip(&real, |x, _| 0.3 - x),
+            };
+            let [z, w] = agrees([40.0, -30.0], complex, seed);
+            for (all, reduced) in [(all, reduced), (z.real, w.real), (z.imaginary, w.imaginary)] {
+                for part in [0..4, 4..7] {
+                    let size = part.clone().map(|row| all.element(row).abs());
+                    let size = size.fold(0.0, f64::max);
+                    for row in part {
+                        let difference = all.element(row) - reduced.element(row);
+                        assert!(difference.abs() < 1e-10 * size, "{row}: {difference:e}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_number_that_is_none_is_not_overlooked() {
+        for (column, row) in [(0, 1), (1, 5), (4, 0), (5, 1), (6, 6)] {
+            let (like, mut jacobian) = kinematic(0.0, 1);
+            jacobian.columns[column].set_element(row, f64::NAN);
+            jacobian.look(&like);
+            let mut factors = Factors::<f64, X, X>::new(&like);
+            let right = X::from_parts([1.0; 4], [1.0; 3]);
+            let exists = factors.factorise(40.0, &jacobian, &like);
+            let is_told = !exists || !factors.solve(right, &jacobian, &like).is_finite();
+            assert!(is_told, "{column} {row}");
+        }
+    }
+
     #[test]
     fn a_matrix_without_an_inverse_is_none() {
-        let jacobian = [[1.0, 2.0], [2.0, 4.0]];
+        let mut jacobian = Jacobian::new(&[0.0; 2]);
+        jacobian.columns = [[1.0, 2.0], [2.0, 4.0]];
+        jacobian.look(&[0.0; 2]);
         let mut factors = Factors::<f64, [f64; 2], [f64; 2]>::new(&[0.0; 2]);
         assert!(!factors.factorise(0.0, &jacobian, &[0.0; 2]));
         assert!(!factors.factorise(f64::NAN, &jacobian, &[0.0; 2]));

@@ -2,10 +2,12 @@
 
 use core::mem::{replace, swap};
 
+use super::column::ComplexColumn;
 use super::controlled::controlled;
 use super::controller::{Controller, FIRST_SHARE};
-use super::linear::{ComplexColumn, Factors};
-use super::newton::{Age, Newton, Progress, remember_columns};
+use super::jacobian::Jacobian;
+use super::linear::Factors;
+use super::newton::{Age, Newton, Progress};
 use super::record::{Reached, reached};
 use super::tableau_radau as tableau;
 use super::{Advance, Counts, Integration, Memory, Slopes, System, TimeSpan, Tolerance, named};
@@ -69,7 +71,7 @@ pub struct RadauIntegration<S: Real, X: Vector<S>> {
     newton: Newton<S>,
     next_step: S,
     reached: Reached<S, X>,
-    jacobian: X::Each<X>,
+    jacobian: Jacobian<S, X>,
     age: Age,
     real: Factors<S, X, X>,
     complex: Factors<S, X, ComplexColumn<X>>,
@@ -116,7 +118,7 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
             newton: Newton::new(controller.relative, ITERATIONS),
             next_step: controller.first(&span, state, slope, FIRST_SHARE),
             controller,
-            jacobian: state.each(nothing.clone()),
+            jacobian: Jacobian::new(&nothing),
             age: Age::Unknown,
             real: Factors::new(&nothing),
             complex: Factors::new(&nothing),
@@ -161,14 +163,11 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
     fn prepare<Y: System<S, State = X>>(&mut self, system: &mut Y, step: S) -> Result<bool, Fault> {
         if self.age == Age::Unknown {
             let mut counted = Slopes::counted(system, &mut self.reached.counts);
-            counted.jacobian(
-                self.reached.time,
-                &self.reached.state,
-                &self.reached.slope,
-                &mut self.jacobian,
-            )?;
-            self.age = Age::Present;
             self.factorised = None;
+            let at = (&self.reached.state, &self.reached.slope);
+            self.jacobian
+                .evaluate(&mut counted, self.reached.time, at)?;
+            self.age = Age::Present;
         }
         Ok(self.factorise(step))
     }
@@ -198,7 +197,6 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
         (time, state, step): (S, &X, S),
         increments: &mut [X; 3],
     ) -> Result<Option<Newton<S>>, Fault> {
-        let length = self.reached.state.length();
         let shift = |number: f64| -S::constant(number).quotient(step);
         let [alpha, beta] = tableau::COMPLEX.map(shift);
         let mut transformed =
@@ -223,8 +221,10 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
                 real: real.zip(w, |x, w| w.fused(-beta, x)),
                 imaginary: imaginary.zip(v, |x, v| v.fused(beta, x)),
             };
-            let change = self.real.solve(right, length);
-            let complex = self.complex.solve(right_complex, length);
+            let change = self.real.solve(right, &self.jacobian, &self.reached.state);
+            let complex = self
+                .complex
+                .solve(right_complex, &self.jacobian, &self.reached.state);
             let changes = [change, complex.real, complex.imaginary];
             let size = changes
                 .each_ref()
@@ -266,11 +266,14 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
         end: &X,
         again: bool,
     ) -> Result<S, Fault> {
-        let length = self.reached.state.length();
         let weights = tableau::ERROR.map(|weight| S::constant(weight).quotient(step));
         let difference = combined(weights, increments);
         let right = |slope: &X| slope.zip(&difference, |x, y| x + y);
-        let error = self.real.solve(right(&self.reached.slope), length);
+        let error = self.real.solve(
+            right(&self.reached.slope),
+            &self.jacobian,
+            &self.reached.state,
+        );
         let size = self.size(end, &error);
         if !(again && size > S::one()) {
             return Ok(size);
@@ -278,7 +281,9 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
         let mut slope = error.clone();
         let there = self.reached.state.plus([(S::one(), &error)]);
         system.stage(self.reached.time, &there, &mut slope)?;
-        let error = self.real.solve(right(&slope), length);
+        let error = self
+            .real
+            .solve(right(&slope), &self.jacobian, &self.reached.state);
         Ok(self.size(end, &error))
     }
 
@@ -361,8 +366,7 @@ impl<S: Real, X: Vector<S>> Integration<S, X> for RadauIntegration<S, X> {
         self.reached.remember(memory);
         memory.number(&mut self.next_step);
         self.age.remember(memory);
-        let length = self.reached.state.length();
-        remember_columns::<S, X>(memory, &mut self.jacobian, length);
+        self.jacobian.remember(memory, &self.reached.state);
         self.factorised = None;
         memory.number(&mut self.step);
         memory.optional(&mut self.error);

@@ -294,8 +294,19 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const
         2 * TURNS + REST + RATES
     }
 
+    #[inline(always)]
     fn coordinate_count(&self) -> usize {
         2 * TURNS + REST
+    }
+
+    #[inline(always)]
+    fn velocities_slice(&self) -> &[S] {
+        &self.rates
+    }
+
+    #[inline(always)]
+    fn velocities_slice_mut(&mut self) -> &mut [S] {
+        &mut self.rates
     }
 
     #[inline(always)]

@@ -90,6 +90,19 @@ pub trait Vector<S: Scalar>: Clone {
         0
     }
 
+    /// The elements behind the coordinates, where they stand in one slice; empty where they do not.
+    ///
+    /// Implicit methods then solve for these alone, where the rates of coordinates are velocities.
+    #[must_use]
+    fn velocities_slice(&self) -> &[S] {
+        &[]
+    }
+
+    /// These elements, to be written.
+    fn velocities_slice_mut(&mut self) -> &mut [S] {
+        &mut []
+    }
+
     /// Whether an increment of the element at a place has a part in [`Vector::plus`]: implicit
     /// methods need no derivative for one that has none.
     #[must_use]

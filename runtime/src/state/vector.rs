@@ -48,6 +48,16 @@ impl<S: Scalar, const N: usize> Vector<S> for [S; N] {
     }
 
     #[inline(always)]
+    fn velocities_slice(&self) -> &[S] {
+        self
+    }
+
+    #[inline(always)]
+    fn velocities_slice_mut(&mut self) -> &mut [S] {
+        self
+    }
+
+    #[inline(always)]
     fn zip(&self, other: &Self, mut f: impl FnMut(S, S) -> S) -> Self {
         let mut result = *self;
         for (element, other) in result.iter_mut().zip(other) {
@@ -173,8 +183,19 @@ impl<S: Scalar, const Q: usize, const U: usize, const A: usize> Vector<S> for St
         Q + U
     }
 
+    #[inline(always)]
     fn coordinate_count(&self) -> usize {
         Q
+    }
+
+    #[inline(always)]
+    fn velocities_slice(&self) -> &[S] {
+        &self.velocities
+    }
+
+    #[inline(always)]
+    fn velocities_slice_mut(&mut self) -> &mut [S] {
+        &mut self.velocities
     }
 
     #[inline(always)]

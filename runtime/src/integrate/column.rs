@@ -1,0 +1,271 @@
+//! Columns of real and of complex numbers, of which implicit methods make matrices.
+
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
+
+/// A complex number: real and imaginary part.
+pub(super) type Complex<S> = [S; 2];
+
+/// A column of numbers, made of slopes `X`.
+pub(super) trait Column<S: Real, X: Vector<S>>: Clone {
+    type Number: Copy;
+
+    /// A column of real numbers.
+    fn real(column: X) -> Self;
+    fn at(&self, row: usize) -> Self::Number;
+    fn set(&mut self, row: usize, value: Self::Number);
+    /// `self + factor * other`.
+    fn add(&mut self, factor: Self::Number, other: &Self);
+    fn scale(&mut self, factor: Self::Number);
+    /// The absolute value of a number, or up to 1.5 times that.
+    fn size(of: Self::Number) -> S;
+    fn zero() -> Self::Number;
+    fn product(a: Self::Number, b: Self::Number) -> Self::Number;
+    fn times(of: Self::Number, real: S) -> Self::Number;
+    fn sum(a: Self::Number, b: Self::Number) -> Self::Number;
+    fn inverse(of: Self::Number) -> Self::Number;
+    fn negative(of: Self::Number) -> Self::Number;
+
+    /// The number at a row behind the coordinates, see [`Vector::velocities_slice`].
+    fn behind(&self, row: usize) -> Self::Number;
+    fn set_behind(&mut self, row: usize, value: Self::Number);
+    /// `self + factor * other` behind the coordinates.
+    fn add_behind(&mut self, factor: Self::Number, other: &Self);
+    /// `self + factor * other` there, by a real column.
+    fn add_real_behind(&mut self, factor: Self::Number, other: &X);
+    fn scale_behind(&mut self, factor: Self::Number);
+    /// Makes that part of a column be the negative of a real one.
+    fn oppose_behind(&mut self, other: &X);
+}
+
+/// `to + factor * other`.
+#[inline(always)]
+fn add<S: Real>(to: &mut [S], factor: S, other: &[S]) {
+    for (to, other) in to.iter_mut().zip(other) {
+        *to = other.fused(factor, *to);
+    }
+}
+
+#[inline(always)]
+fn oppose<S: Real>(to: &mut [S], other: &[S]) {
+    for (to, &other) in to.iter_mut().zip(other) {
+        *to = -other;
+    }
+}
+
+/// The element of a slice; zero where there is none.
+#[inline(always)]
+fn element<S: Real>(of: &[S], row: usize) -> S {
+    of.get(row).copied().unwrap_or(S::zero())
+}
+
+#[inline(always)]
+fn set_element<S: Real>(of: &mut [S], row: usize, value: S) {
+    if let Some(element) = of.get_mut(row) {
+        *element = value;
+    }
+}
+
+impl<S: Real, X: Vector<S>> Column<S, X> for X {
+    type Number = S;
+
+    fn real(column: X) -> X {
+        column
+    }
+
+    fn at(&self, row: usize) -> S {
+        self.element(row)
+    }
+
+    fn set(&mut self, row: usize, value: S) {
+        self.set_element(row, value);
+    }
+
+    fn add(&mut self, factor: S, other: &X) {
+        *self = self.zip(other, |x, y| y.fused(factor, x));
+    }
+
+    fn scale(&mut self, factor: S) {
+        *self = self.zip(self, |x, _| factor * x);
+    }
+
+    fn size(of: S) -> S {
+        of.abs()
+    }
+
+    fn zero() -> S {
+        S::zero()
+    }
+
+    fn product(a: S, b: S) -> S {
+        a * b
+    }
+
+    fn times(of: S, real: S) -> S {
+        of * real
+    }
+
+    fn sum(a: S, b: S) -> S {
+        a + b
+    }
+
+    fn inverse(of: S) -> S {
+        of.reciprocal()
+    }
+
+    fn negative(of: S) -> S {
+        -of
+    }
+
+    #[inline(always)]
+    fn behind(&self, row: usize) -> S {
+        element(self.velocities_slice(), row)
+    }
+
+    #[inline(always)]
+    fn set_behind(&mut self, row: usize, value: S) {
+        set_element(self.velocities_slice_mut(), row, value);
+    }
+
+    #[inline(always)]
+    fn add_behind(&mut self, factor: S, other: &X) {
+        add(
+            self.velocities_slice_mut(),
+            factor,
+            other.velocities_slice(),
+        );
+    }
+
+    #[inline(always)]
+    fn add_real_behind(&mut self, factor: S, other: &X) {
+        self.add_behind(factor, other);
+    }
+
+    #[inline(always)]
+    fn scale_behind(&mut self, factor: S) {
+        for x in self.velocities_slice_mut() {
+            *x = factor * *x;
+        }
+    }
+
+    #[inline(always)]
+    fn oppose_behind(&mut self, other: &X) {
+        oppose(self.velocities_slice_mut(), other.velocities_slice());
+    }
+}
+
+/// A column of complex numbers: real and imaginary parts.
+#[derive(Clone)]
+pub(super) struct ComplexColumn<X> {
+    pub(super) real: X,
+    pub(super) imaginary: X,
+}
+
+impl<S: Real, X: Vector<S>> Column<S, X> for ComplexColumn<X> {
+    type Number = Complex<S>;
+
+    fn real(column: X) -> Self {
+        Self {
+            imaginary: column.zip(&column, |_, _| S::zero()),
+            real: column,
+        }
+    }
+
+    fn at(&self, row: usize) -> Complex<S> {
+        [self.real.element(row), self.imaginary.element(row)]
+    }
+
+    fn set(&mut self, row: usize, [real, imaginary]: Complex<S>) {
+        self.real.set_element(row, real);
+        self.imaginary.set_element(row, imaginary);
+    }
+
+    fn add(&mut self, [a, b]: Complex<S>, other: &Self) {
+        let Self { real, imaginary } = other;
+        self.real = self.real.zip(real, |x, y| y.fused(a, x));
+        self.real = self.real.zip(imaginary, |x, y| y.fused(-b, x));
+        self.imaginary = self.imaginary.zip(imaginary, |x, y| y.fused(a, x));
+        self.imaginary = self.imaginary.zip(real, |x, y| y.fused(b, x));
+    }
+
+    fn scale(&mut self, [a, b]: Complex<S>) {
+        let real = self.real.zip(&self.imaginary, |x, y| a * x - b * y);
+        self.imaginary = self.imaginary.zip(&self.real, |y, x| a * y + b * x);
+        self.real = real;
+    }
+
+    fn size([a, b]: Complex<S>) -> S {
+        a.abs() + b.abs()
+    }
+
+    fn zero() -> Complex<S> {
+        [S::zero(); 2]
+    }
+
+    fn product([a, b]: Complex<S>, [c, d]: Complex<S>) -> Complex<S> {
+        [a.fused(c, -(b * d)), a.fused(d, b * c)]
+    }
+
+    fn times([a, b]: Complex<S>, real: S) -> Complex<S> {
+        [a * real, b * real]
+    }
+
+    fn sum([a, b]: Complex<S>, [c, d]: Complex<S>) -> Complex<S> {
+        [a + c, b + d]
+    }
+
+    fn inverse([a, b]: Complex<S>) -> Complex<S> {
+        let square = a.fused(a, b * b);
+        [a.quotient(square), (-b).quotient(square)]
+    }
+
+    fn negative([a, b]: Complex<S>) -> Complex<S> {
+        [-a, -b]
+    }
+
+    #[inline(always)]
+    fn behind(&self, row: usize) -> Complex<S> {
+        let parts = [&self.real, &self.imaginary];
+        parts.map(|part| element(part.velocities_slice(), row))
+    }
+
+    #[inline(always)]
+    fn set_behind(&mut self, row: usize, [real, imaginary]: Complex<S>) {
+        set_element(self.real.velocities_slice_mut(), row, real);
+        set_element(self.imaginary.velocities_slice_mut(), row, imaginary);
+    }
+
+    #[inline(always)]
+    fn add_behind(&mut self, [a, b]: Complex<S>, other: &Self) {
+        let [x, y] = [&other.real, &other.imaginary].map(Vector::velocities_slice);
+        let real = self.real.velocities_slice_mut();
+        add(real, a, x);
+        add(real, -b, y);
+        let imaginary = self.imaginary.velocities_slice_mut();
+        add(imaginary, a, y);
+        add(imaginary, b, x);
+    }
+
+    #[inline(always)]
+    fn add_real_behind(&mut self, [a, b]: Complex<S>, other: &X) {
+        let other = other.velocities_slice();
+        add(self.real.velocities_slice_mut(), a, other);
+        add(self.imaginary.velocities_slice_mut(), b, other);
+    }
+
+    #[inline(always)]
+    fn scale_behind(&mut self, [a, b]: Complex<S>) {
+        let real = self.real.velocities_slice_mut().iter_mut();
+        for (x, y) in real.zip(self.imaginary.velocities_slice_mut()) {
+            [*x, *y] = [a * *x - b * *y, a * *y + b * *x];
+        }
+    }
+
+    #[inline(always)]
+    fn oppose_behind(&mut self, other: &X) {
+        oppose(self.real.velocities_slice_mut(), other.velocities_slice());
+        for y in self.imaginary.velocities_slice_mut() {
+            *y = S::zero();
+        }
+    }
+}

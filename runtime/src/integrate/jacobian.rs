@@ -1,0 +1,117 @@
+//! The Jacobian of rates that an implicit method keeps, and what is known of its zeros.
+
+use super::column::Column;
+use super::newton::remember_columns;
+use super::{Memory, System};
+use crate::error::Fault;
+use crate::math::scalar::Real;
+use crate::state::vector::Vector;
+
+/// The columns of a Jacobian by the elements of a state.
+#[derive(Clone)]
+pub(super) struct Jacobian<S: Real, X: Vector<S>> {
+    pub(super) columns: X::Each<X>,
+    /// Whether the rates of coordinates are made of velocities alone, of two at most.
+    is_kinematic: bool,
+    /// Of every coordinate.
+    moved: X::Each<Moved<S>>,
+    /// What velocities do by the coordinates that they move: columns, behind the coordinates.
+    coupling: X::Each<X>,
+}
+
+/// A coordinate whose rate is made of velocities alone.
+#[derive(Clone, Copy)]
+pub(super) struct Moved<S> {
+    /// By which velocities, and the factors, which are zero where there are fewer.
+    pub(super) by: [(usize, S); 2],
+    /// Whether the rates of velocities depend on it.
+    pub(super) acts: bool,
+}
+
+/// What a Jacobian has where the rates of coordinates are made of velocities alone.
+pub(super) struct Kinematics<'a, S: Real, X: Vector<S>> {
+    pub(super) columns: &'a X::Each<X>,
+    pub(super) moved: &'a X::Each<Moved<S>>,
+    pub(super) coupling: &'a X::Each<X>,
+}
+
+impl<S: Real, X: Vector<S>> Jacobian<S, X> {
+    /// A place for one between slopes like this.
+    pub(super) fn new(like: &X) -> Self {
+        let nothing = like.each(like.zip(like, |_, _| S::zero()));
+        let at_rest = Moved {
+            by: [(0, S::zero()); 2],
+            acts: false,
+        };
+        Self {
+            columns: nothing.clone(),
+            is_kinematic: false,
+            moved: like.each(at_rest),
+            coupling: nothing,
+        }
+    }
+
+    /// Evaluates it, see [`System::jacobian`].
+    pub(super) fn evaluate<Y: System<S, State = X>>(
+        &mut self,
+        system: &mut Y,
+        time: S,
+        (state, rates): (&X, &X),
+    ) -> Result<(), Fault> {
+        system.jacobian(time, state, rates, &mut self.columns)?;
+        self.look(state);
+        Ok(())
+    }
+
+    /// Its part of [`Integration::remember`](super::Integration::remember).
+    pub(super) fn remember(&mut self, memory: &mut Memory<'_, S>, state: &X) {
+        remember_columns::<S, X>(memory, &mut self.columns, state.length());
+        self.look(state);
+    }
+
+    /// Its parts, where the rates of coordinates are made of velocities alone.
+    #[inline(always)]
+    pub(super) fn kinematics(&self) -> Option<Kinematics<'_, S, X>> {
+        self.is_kinematic.then_some(Kinematics {
+            columns: &self.columns,
+            moved: &self.moved,
+            coupling: &self.coupling,
+        })
+    }
+
+    /// Finds what is zero.
+    pub(super) fn look(&mut self, like: &X) {
+        let coordinates = like.coordinate_count();
+        let velocities = like.velocities_slice().len();
+        self.is_kinematic = velocities > 0
+            && coordinates + velocities == like.length()
+            && (0..coordinates).all(|row| self.moves(row, coordinates, velocities));
+        if !self.is_kinematic {
+            return;
+        }
+        let nothing = like.zip(like, |_, _| S::zero());
+        for velocity in coordinates..coordinates + velocities {
+            self.coupling[velocity] = nothing.clone();
+        }
+        for coordinate in 0..coordinates {
+            let column = &self.columns[coordinate];
+            let moved = &mut self.moved[coordinate];
+            moved.acts = column.velocities_slice().iter().any(|&x| x != S::zero());
+            for (velocity, factor) in moved.by {
+                self.coupling[coordinates + velocity].add_behind(factor, column);
+            }
+        }
+    }
+
+    /// Finds the velocities that a coordinate is moved by. Whether there is nothing else.
+    fn moves(&mut self, row: usize, coordinates: usize, velocities: usize) -> bool {
+        let at = |column: usize| self.columns[column].element(row);
+        let is_alone = (0..coordinates).all(|column| at(column) == S::zero());
+        let entries = (0..velocities).map(|velocity| (velocity, at(coordinates + velocity)));
+        let mut entries = entries.filter(|&(_, factor)| factor != S::zero());
+        let by = [(); 2].map(|()| entries.next().unwrap_or((0, S::zero())));
+        let are_few = entries.next().is_none();
+        self.moved[row].by = by;
+        is_alone && are_few
+    }
+}
