@@ -29,10 +29,13 @@ pub(super) trait Column<S: Real, X: Vector<S>>: Clone {
     /// The number at a row behind the coordinates, see [`Vector::velocities_slice`].
     fn behind(&self, row: usize) -> Self::Number;
     fn set_behind(&mut self, row: usize, value: Self::Number);
-    /// `self + factor * other` behind the coordinates.
-    fn add_behind(&mut self, factor: Self::Number, other: &Self);
     /// `self + factor * other` there, by a real column.
     fn add_real_behind(&mut self, factor: Self::Number, other: &X);
+    /// The same of all rows.
+    fn add_real(&mut self, factor: Self::Number, other: &X);
+    /// `self + factor * other` behind the coordinates, where the factor is what stands at a row,
+    /// and zero takes its place.
+    fn eliminate_behind(&mut self, row: usize, other: &Self);
     fn scale_behind(&mut self, factor: Self::Number);
     /// Makes that part of a column be the negative of a real one.
     fn oppose_behind(&mut self, other: &X);
@@ -43,6 +46,16 @@ pub(super) trait Column<S: Real, X: Vector<S>>: Clone {
 fn add<S: Real>(to: &mut [S], factor: S, other: &[S]) {
     for (to, other) in to.iter_mut().zip(other) {
         *to = other.fused(factor, *to);
+    }
+}
+
+/// The same, with zero in the place of the element of `to` at a row. That element is compared for,
+/// as a store of it would be waited for by all others.
+#[inline(always)]
+fn add_apart<S: Real>(to: &mut [S], row: usize, factor: S, other: &[S]) {
+    for (place, (to, other)) in to.iter_mut().zip(other).enumerate() {
+        let kept = if place == row { S::zero() } else { *to };
+        *to = other.fused(factor, kept);
     }
 }
 
@@ -69,50 +82,62 @@ fn set_element<S: Real>(of: &mut [S], row: usize, value: S) {
 impl<S: Real, X: Vector<S>> Column<S, X> for X {
     type Number = S;
 
+    #[inline(always)]
     fn real(column: X) -> X {
         column
     }
 
+    #[inline(always)]
     fn at(&self, row: usize) -> S {
         self.element(row)
     }
 
+    #[inline(always)]
     fn set(&mut self, row: usize, value: S) {
         self.set_element(row, value);
     }
 
+    #[inline(always)]
     fn add(&mut self, factor: S, other: &X) {
         *self = self.zip(other, |x, y| y.fused(factor, x));
     }
 
+    #[inline(always)]
     fn scale(&mut self, factor: S) {
         *self = self.zip(self, |x, _| factor * x);
     }
 
+    #[inline(always)]
     fn size(of: S) -> S {
         of.abs()
     }
 
+    #[inline(always)]
     fn zero() -> S {
         S::zero()
     }
 
+    #[inline(always)]
     fn product(a: S, b: S) -> S {
         a * b
     }
 
+    #[inline(always)]
     fn times(of: S, real: S) -> S {
         of * real
     }
 
+    #[inline(always)]
     fn sum(a: S, b: S) -> S {
         a + b
     }
 
+    #[inline(always)]
     fn inverse(of: S) -> S {
         of.reciprocal()
     }
 
+    #[inline(always)]
     fn negative(of: S) -> S {
         -of
     }
@@ -128,7 +153,7 @@ impl<S: Real, X: Vector<S>> Column<S, X> for X {
     }
 
     #[inline(always)]
-    fn add_behind(&mut self, factor: S, other: &X) {
+    fn add_real_behind(&mut self, factor: S, other: &X) {
         add(
             self.velocities_slice_mut(),
             factor,
@@ -137,8 +162,15 @@ impl<S: Real, X: Vector<S>> Column<S, X> for X {
     }
 
     #[inline(always)]
-    fn add_real_behind(&mut self, factor: S, other: &X) {
-        self.add_behind(factor, other);
+    fn add_real(&mut self, factor: S, other: &X) {
+        self.add(factor, other);
+    }
+
+    #[inline(always)]
+    fn eliminate_behind(&mut self, row: usize, other: &X) {
+        let factor = self.behind(row);
+        let (to, other) = (self.velocities_slice_mut(), other.velocities_slice());
+        add_apart(to, row, factor, other);
     }
 
     #[inline(always)]
@@ -164,6 +196,7 @@ pub(super) struct ComplexColumn<X> {
 impl<S: Real, X: Vector<S>> Column<S, X> for ComplexColumn<X> {
     type Number = Complex<S>;
 
+    #[inline(always)]
     fn real(column: X) -> Self {
         Self {
             imaginary: column.zip(&column, |_, _| S::zero()),
@@ -171,15 +204,18 @@ impl<S: Real, X: Vector<S>> Column<S, X> for ComplexColumn<X> {
         }
     }
 
+    #[inline(always)]
     fn at(&self, row: usize) -> Complex<S> {
         [self.real.element(row), self.imaginary.element(row)]
     }
 
+    #[inline(always)]
     fn set(&mut self, row: usize, [real, imaginary]: Complex<S>) {
         self.real.set_element(row, real);
         self.imaginary.set_element(row, imaginary);
     }
 
+    #[inline(always)]
     fn add(&mut self, [a, b]: Complex<S>, other: &Self) {
         let Self { real, imaginary } = other;
         self.real = self.real.zip(real, |x, y| y.fused(a, x));
@@ -188,37 +224,45 @@ impl<S: Real, X: Vector<S>> Column<S, X> for ComplexColumn<X> {
         self.imaginary = self.imaginary.zip(real, |x, y| y.fused(b, x));
     }
 
+    #[inline(always)]
     fn scale(&mut self, [a, b]: Complex<S>) {
         let real = self.real.zip(&self.imaginary, |x, y| a * x - b * y);
         self.imaginary = self.imaginary.zip(&self.real, |y, x| a * y + b * x);
         self.real = real;
     }
 
+    #[inline(always)]
     fn size([a, b]: Complex<S>) -> S {
         a.abs() + b.abs()
     }
 
+    #[inline(always)]
     fn zero() -> Complex<S> {
         [S::zero(); 2]
     }
 
+    #[inline(always)]
     fn product([a, b]: Complex<S>, [c, d]: Complex<S>) -> Complex<S> {
         [a.fused(c, -(b * d)), a.fused(d, b * c)]
     }
 
+    #[inline(always)]
     fn times([a, b]: Complex<S>, real: S) -> Complex<S> {
         [a * real, b * real]
     }
 
+    #[inline(always)]
     fn sum([a, b]: Complex<S>, [c, d]: Complex<S>) -> Complex<S> {
         [a + c, b + d]
     }
 
+    #[inline(always)]
     fn inverse([a, b]: Complex<S>) -> Complex<S> {
         let square = a.fused(a, b * b);
         [a.quotient(square), (-b).quotient(square)]
     }
 
+    #[inline(always)]
     fn negative([a, b]: Complex<S>) -> Complex<S> {
         [-a, -b]
     }
@@ -236,21 +280,28 @@ impl<S: Real, X: Vector<S>> Column<S, X> for ComplexColumn<X> {
     }
 
     #[inline(always)]
-    fn add_behind(&mut self, [a, b]: Complex<S>, other: &Self) {
-        let [x, y] = [&other.real, &other.imaginary].map(Vector::velocities_slice);
-        let real = self.real.velocities_slice_mut();
-        add(real, a, x);
-        add(real, -b, y);
-        let imaginary = self.imaginary.velocities_slice_mut();
-        add(imaginary, a, y);
-        add(imaginary, b, x);
-    }
-
-    #[inline(always)]
     fn add_real_behind(&mut self, [a, b]: Complex<S>, other: &X) {
         let other = other.velocities_slice();
         add(self.real.velocities_slice_mut(), a, other);
         add(self.imaginary.velocities_slice_mut(), b, other);
+    }
+
+    #[inline(always)]
+    fn add_real(&mut self, [a, b]: Complex<S>, other: &X) {
+        self.real.add(a, other);
+        self.imaginary.add(b, other);
+    }
+
+    #[inline(always)]
+    fn eliminate_behind(&mut self, row: usize, other: &Self) {
+        let [a, b] = self.behind(row);
+        let [x, y] = [&other.real, &other.imaginary].map(Vector::velocities_slice);
+        let real = self.real.velocities_slice_mut();
+        add_apart(real, row, a, x);
+        add(real, -b, y);
+        let imaginary = self.imaginary.velocities_slice_mut();
+        add_apart(imaginary, row, a, y);
+        add(imaginary, b, x);
     }
 
     #[inline(always)]

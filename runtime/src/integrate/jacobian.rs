@@ -13,40 +13,41 @@ pub(super) struct Jacobian<S: Real, X: Vector<S>> {
     pub(super) columns: X::Each<X>,
     /// Whether the rates of coordinates are made of velocities alone, of two at most.
     is_kinematic: bool,
-    /// Of every coordinate.
-    moved: X::Each<Moved<S>>,
+    /// The velocities that a coordinate is moved by, and the factors, which are zero where there are
+    /// fewer than two.
+    moved: X::Each<[(usize, S); 2]>,
+    /// The coordinates that the rates of velocities depend on, and how many these are.
+    acting: (X::Each<usize>, usize),
     /// What velocities do by the coordinates that they move: columns, behind the coordinates.
     coupling: X::Each<X>,
-}
-
-/// A coordinate whose rate is made of velocities alone.
-#[derive(Clone, Copy)]
-pub(super) struct Moved<S> {
-    /// By which velocities, and the factors, which are zero where there are fewer.
-    pub(super) by: [(usize, S); 2],
-    /// Whether the rates of velocities depend on it.
-    pub(super) acts: bool,
 }
 
 /// What a Jacobian has where the rates of coordinates are made of velocities alone.
 pub(super) struct Kinematics<'a, S: Real, X: Vector<S>> {
     pub(super) columns: &'a X::Each<X>,
-    pub(super) moved: &'a X::Each<Moved<S>>,
+    pub(super) moved: &'a X::Each<[(usize, S); 2]>,
+    acting: (&'a X::Each<usize>, usize),
     pub(super) coupling: &'a X::Each<X>,
+}
+
+impl<S: Real, X: Vector<S>> Kinematics<'_, S, X> {
+    /// The coordinates that the rates of velocities depend on.
+    #[inline(always)]
+    pub(super) fn acting(&self) -> impl Iterator<Item = usize> {
+        let (coordinates, count) = self.acting;
+        (0..count).map(|place| coordinates[place])
+    }
 }
 
 impl<S: Real, X: Vector<S>> Jacobian<S, X> {
     /// A place for one between slopes like this.
     pub(super) fn new(like: &X) -> Self {
         let nothing = like.each(like.zip(like, |_, _| S::zero()));
-        let at_rest = Moved {
-            by: [(0, S::zero()); 2],
-            acts: false,
-        };
         Self {
             columns: nothing.clone(),
             is_kinematic: false,
-            moved: like.each(at_rest),
+            moved: like.each([(0, S::zero()); 2]),
+            acting: (like.each(0), 0),
             coupling: nothing,
         }
     }
@@ -75,6 +76,7 @@ impl<S: Real, X: Vector<S>> Jacobian<S, X> {
         self.is_kinematic.then_some(Kinematics {
             columns: &self.columns,
             moved: &self.moved,
+            acting: (&self.acting.0, self.acting.1),
             coupling: &self.coupling,
         })
     }
@@ -93,12 +95,17 @@ impl<S: Real, X: Vector<S>> Jacobian<S, X> {
         for velocity in coordinates..coordinates + velocities {
             self.coupling[velocity] = nothing.clone();
         }
+        let (acting, count) = &mut self.acting;
+        *count = 0;
         for coordinate in 0..coordinates {
             let column = &self.columns[coordinate];
-            let moved = &mut self.moved[coordinate];
-            moved.acts = column.velocities_slice().iter().any(|&x| x != S::zero());
-            for (velocity, factor) in moved.by {
-                self.coupling[coordinates + velocity].add_behind(factor, column);
+            if column.velocities_slice().iter().all(|&x| x == S::zero()) {
+                continue;
+            }
+            acting[*count] = coordinate;
+            *count += 1;
+            for (velocity, factor) in self.moved[coordinate] {
+                self.coupling[coordinates + velocity].add_real_behind(factor, column);
             }
         }
     }
@@ -109,9 +116,9 @@ impl<S: Real, X: Vector<S>> Jacobian<S, X> {
         let is_alone = (0..coordinates).all(|column| at(column) == S::zero());
         let entries = (0..velocities).map(|velocity| (velocity, at(coordinates + velocity)));
         let mut entries = entries.filter(|&(_, factor)| factor != S::zero());
-        let by = [(); 2].map(|()| entries.next().unwrap_or((0, S::zero())));
+        let moved = [(); 2].map(|()| entries.next().unwrap_or((0, S::zero())));
         let are_few = entries.next().is_none();
-        self.moved[row].by = by;
+        self.moved[row] = moved;
         is_alone && are_few
     }
 }

@@ -50,8 +50,8 @@ impl<S: Real> Newton<S> {
         }
         if let Some(before) = self.before.replace(size) {
             let rate = size.quotient(before);
-            let left = f64::from(self.most - self.iterations);
-            let last = rate.powf(left).quotient(S::one() - rate) * size;
+            let left = self.iterations..self.most;
+            let last = left.fold(size.quotient(S::one() - rate), |size, _| rate * size);
             if rate >= S::one() || last > self.allowed {
                 return Progress::Fails;
             }

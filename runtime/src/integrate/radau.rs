@@ -15,6 +15,7 @@ use crate::error::Fault;
 use crate::error::setting::positive;
 use crate::math::scalar::Real;
 use crate::math::without_bounds::opaque;
+use crate::state::sums::greater;
 use crate::state::vector::Vector;
 
 controlled! {
@@ -202,8 +203,8 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
         let mut transformed =
             tableau::INVERSE.map(|row| combined(row.map(S::constant), increments));
         let mut newton = self.newton;
+        let mut slopes = [(); 3].map(|()| state.room());
         loop {
-            let mut slopes = increments.clone();
             for ((slope, increment), node) in
                 slopes.iter_mut().zip(&*increments).zip(tableau::NODES)
             {
@@ -226,12 +227,7 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
                 .complex
                 .solve(right_complex, &self.jacobian, &self.reached.state);
             let changes = [change, complex.real, complex.imaginary];
-            let size = changes
-                .each_ref()
-                .map(|change| self.size(&self.reached.state, change))
-                .into_iter()
-                .fold(S::zero(), S::max);
-            let progress = newton.take(size);
+            let progress = newton.take(self.largest(&changes));
             if progress == Progress::Fails {
                 return Ok(None);
             }
@@ -254,6 +250,20 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
             .state
             .weighted_norm(to, floor, [(S::one(), increment)]);
         norm.quotient(self.controller.relative)
+    }
+
+    /// The size of the largest of these increments. NaN, or infinite, if one is not finite.
+    fn largest(&self, increments: &[X; 3]) -> S {
+        let state = &self.reached.state;
+        if S::CARRIES_DERIVATIVES {
+            let sizes = increments.each_ref().map(|x| self.size(state, x));
+            return sizes.into_iter().fold(S::zero(), S::max);
+        }
+        let [a, b, c] = increments;
+        // A comparison loses the second number if it is none.
+        let add = |most: S, x: S| x.fused(S::zero(), greater(most, x.abs()));
+        let most = a.zip(b, |a, b| add(a.abs(), b));
+        self.size(state, &most.zip(c, add))
     }
 
     /// The error of a step, relative to what is allowed, from the difference to a method of order
@@ -333,18 +343,19 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
     }
 
     /// The factor for the next step (Gustafsson, *Control-theoretic techniques for stepsize
-    /// selection in implicit Runge-Kutta methods*, ACM TOMS 20 (1994)).
+    /// selection in implicit Runge-Kutta methods*, ACM TOMS 20 (1994)), by roots of order
+    /// [`tableau::POWER`].
     fn factor(&self, step: S, error: S, newton: &Newton<S>) -> S {
-        let exponent = -1.0 / tableau::POWER;
+        let root = |of: S| of.sqrt().sqrt();
         let mut history = S::one();
         if let Some(before) = self.error
             && error > S::zero()
         {
             let ratio = step.quotient(self.step);
-            history = history.min(ratio * before.quotient(error).powf(-exponent));
+            history = history.min(ratio * root(before.quotient(error)));
         }
         // An error of zero takes the largest factor.
-        (newton.safety() * history * error.powf(exponent)).min(S::constant(10.0))
+        (newton.safety() * history.quotient(root(error))).min(S::constant(10.0))
     }
 }
 

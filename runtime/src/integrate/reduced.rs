@@ -11,8 +11,8 @@ use super::jacobian::Kinematics;
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;
 
-/// Writes the eliminations, and the row of the pivot of every column. The inverse of the shift;
-/// `None` if a pivot vanishes or is not finite.
+/// Writes the eliminations, of rows in such an order that pivots are on the diagonal, and that
+/// order. The inverse of the shift; `None` if a pivot vanishes or is not finite.
 pub(super) fn factorise<S: Real, X: Vector<S>, C: Column<S, X>>(
     (eliminations, rows): (&mut X::Each<C>, &mut X::Each<usize>),
     shift: C::Number,
@@ -32,28 +32,36 @@ pub(super) fn factorise<S: Real, X: Vector<S>, C: Column<S, X>>(
             column.add_real_behind(C::negative(inverse), &kinematics.coupling[first + row]);
         }
     }
-    let mut is_free = like.each(true);
-    for place in first..first + count {
-        let mut column = eliminations[place].clone();
-        let (mut row, mut largest) = (0, S::zero());
-        for candidate in 0..count {
-            let size = C::size(column.behind(candidate));
-            if is_free[first + candidate] && size > largest {
+    for row in 0..count {
+        rows[first + row] = row;
+    }
+    for place in 0..count {
+        let (mut row, mut largest) = (place, S::zero());
+        for candidate in place..count {
+            let size = C::size(eliminations[first + place].behind(candidate));
+            if size > largest {
                 (row, largest) = (candidate, size);
             }
         }
         if !(largest > S::zero() && largest.is_finite()) {
             return None;
         }
-        let pivot = C::inverse(column.behind(row));
-        column.scale_behind(C::negative(pivot));
-        column.set_behind(row, pivot);
-        rows[place] = row;
-        is_free[first + row] = false;
-        for later in place + 1..first + count {
-            eliminate(row, &column, &mut eliminations[later]);
+        if row != place {
+            for column in first..first + count {
+                exchange(&mut eliminations[column], row, place);
+            }
+            let before = rows[first + row];
+            rows[first + row] = rows[first + place];
+            rows[first + place] = before;
         }
-        eliminations[place] = column;
+        let mut column = eliminations[first + place].clone();
+        let pivot = C::inverse(column.behind(place));
+        column.scale_behind(C::negative(pivot));
+        column.set_behind(place, pivot);
+        for later in place + 1..count {
+            eliminations[first + later].eliminate_behind(place, &column);
+        }
+        eliminations[first + place] = column;
     }
     Some(inverse)
 }
@@ -66,38 +74,50 @@ pub(super) fn solve<S: Real, X: Vector<S>, C: Column<S, X>>(
     kinematics: &Kinematics<'_, S, X>,
     (mut right, like): (C, &X),
 ) -> C {
+    /// Up to so many velocities their columns are added, zeros and all, in one piece.
+    const FEW: usize = 12;
     let (first, count) = (like.coordinate_count(), like.velocities_slice().len());
-    for coordinate in 0..first {
-        let scaled = C::product(right.at(coordinate), inverse);
-        right.set(coordinate, scaled);
-        if kinematics.moved[coordinate].acts {
-            right.add_real_behind(scaled, &kinematics.columns[coordinate]);
-        }
+    let mut velocities = right.clone();
+    if first > 0 {
+        right.scale(inverse);
     }
-    for place in first..first + count {
-        eliminate(rows[place], &eliminations[place], &mut right);
+    for coordinate in kinematics.acting() {
+        let scaled = right.at(coordinate);
+        velocities.add_real_behind(scaled, &kinematics.columns[coordinate]);
     }
-    let mut solution = right.clone();
+    let mut solution = velocities.clone();
     for row in 0..count {
-        solution.set_behind(row, right.behind(rows[first + row]));
+        solution.set_behind(row, velocities.behind(rows[first + row]));
     }
-    for coordinate in 0..first {
-        let mut sum = right.at(coordinate);
-        for (velocity, factor) in kinematics.moved[coordinate].by {
-            if factor != S::zero() {
-                let velocity = C::times(solution.behind(velocity), factor);
-                sum = C::sum(sum, C::product(inverse, velocity));
-            }
+    for place in 0..count {
+        solution.eliminate_behind(place, &eliminations[first + place]);
+    }
+    if first > 0 && count <= FEW {
+        for row in 0..count {
+            let factor = C::product(inverse, solution.behind(row));
+            right.add_real(factor, &kinematics.columns[first + row]);
         }
-        solution.set(coordinate, sum);
+    } else {
+        for coordinate in 0..first {
+            let mut sum = right.at(coordinate);
+            for (velocity, factor) in kinematics.moved[coordinate] {
+                if factor != S::zero() {
+                    let velocity = C::times(solution.behind(velocity), factor);
+                    sum = C::sum(sum, C::product(inverse, velocity));
+                }
+            }
+            right.set(coordinate, sum);
+        }
     }
-    solution
+    for row in 0..count {
+        right.set_behind(row, solution.behind(row));
+    }
+    right
 }
 
-/// Eliminates the number at a row from a column.
-#[inline(always)]
-fn eliminate<S: Real, X: Vector<S>, C: Column<S, X>>(row: usize, by: &C, of: &mut C) {
-    let factor = of.behind(row);
-    of.set_behind(row, C::zero());
-    of.add_behind(factor, by);
+/// Exchanges two rows.
+fn exchange<S: Real, X: Vector<S>, C: Column<S, X>>(column: &mut C, row: usize, other: usize) {
+    let value = column.behind(row);
+    column.set_behind(row, column.behind(other));
+    column.set_behind(other, value);
 }
