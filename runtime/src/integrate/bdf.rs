@@ -213,10 +213,8 @@ impl<S: Real, X: Vector<S>> BdfIntegration<S, X> {
             let mut slope = change.clone();
             system.stage(end, &state, &mut slope)?;
             let right = slope.zip(&history, |f, psi| f - psi);
-            let right = right.zip(&change, |x, change| change.fused(-shift, x));
-            let more = self
-                .factors
-                .solve(right, &self.jacobian, &self.reached.state);
+            let mut more = right.zip(&change, |x, change| change.fused(-shift, x));
+            self.factors.solve(&mut more, &self.jacobian);
             let progress = newton.take(self.size(&state, &more));
             if progress == Progress::Fails {
                 return Ok(None);

@@ -12,6 +12,8 @@ pub(super) trait Column<S: Real, X: Vector<S>>: Clone {
 
     /// A column of real numbers.
     fn real(column: X) -> Self;
+    /// A column of real numbers of the same length.
+    fn like(&self) -> &X;
     fn at(&self, row: usize) -> Self::Number;
     fn set(&mut self, row: usize, value: Self::Number);
     /// `self + factor * other`.
@@ -85,6 +87,11 @@ impl<S: Real, X: Vector<S>> Column<S, X> for X {
     #[inline(always)]
     fn real(column: X) -> X {
         column
+    }
+
+    #[inline(always)]
+    fn like(&self) -> &X {
+        self
     }
 
     #[inline(always)]
@@ -202,6 +209,11 @@ impl<S: Real, X: Vector<S>> Column<S, X> for ComplexColumn<X> {
             imaginary: column.zip(&column, |_, _| S::zero()),
             real: column,
         }
+    }
+
+    #[inline(always)]
+    fn like(&self) -> &X {
+        &self.real
     }
 
     #[inline(always)]

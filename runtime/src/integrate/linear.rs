@@ -107,21 +107,21 @@ impl<S: Real, X: Vector<S>, C: Column<S, X>> Factors<S, X, C> {
         true
     }
 
-    /// The solution for a right-hand side. The Jacobian is that of the factors.
-    pub(super) fn solve(&self, mut right: C, jacobian: &Jacobian<S, X>, like: &X) -> C {
+    /// Writes the solution in the place of a right-hand side. The Jacobian is that of the factors.
+    pub(super) fn solve(&self, right: &mut C, jacobian: &Jacobian<S, X>) {
         if let (Some(inverse), Some(kinematics)) = (self.reduced, jacobian.kinematics()) {
             let factors = (&self.eliminations, &self.rows);
-            return reduced::solve(factors, inverse, &kinematics, (right, like));
+            reduced::solve(factors, inverse, &kinematics, right);
+            return;
         }
-        let length = like.length();
+        let length = right.like().length();
         for column in 0..length {
-            self.eliminate(column, &mut right);
+            self.eliminate(column, right);
         }
-        let mut solution = right.clone();
+        let eliminated = right.clone();
         for column in 0..length {
-            solution.set(column, right.at(self.rows[column]));
+            right.set(column, eliminated.at(self.rows[column]));
         }
-        solution
     }
 
     #[inline(always)]
@@ -172,17 +172,15 @@ mod tests {
             let (shift, right) = ([0.3, -0.7], [column(), column()]);
             let mut real = Factors::<f64, X, X>::new(&like);
             assert!(real.factorise(shift[0], &jacobian, &like));
-            let x = real.solve(right[0], &jacobian, &like);
+            let mut x = right[0];
+            real.solve(&mut x, &jacobian);
             let mut complex = Factors::<f64, X, ComplexColumn<X>>::new(&like);
             assert!(complex.factorise(shift, &jacobian, &like));
-            let z = complex.solve(
-                ComplexColumn {
-                    real: right[0],
-                    imaginary: right[1],
-                },
-                &jacobian,
-                &like,
-            );
+            let mut z = ComplexColumn {
+                real: right[0],
+                imaginary: right[1],
+            };
+            complex.solve(&mut z, &jacobian);
             for row in 0..7 {
                 let product = |v: &X| -> f64 {
                     (0..7)
@@ -248,7 +246,8 @@ mod tests {
                 let mut number = scattered(seed + 100);
                 let right =
                     State::from_parts([(); 4].map(|()| number()), [(); 3].map(|()| number()));
-                let x = factors.solve(right, &jacobian, &like);
+                let mut x = right;
+                factors.solve(&mut x, &jacobian);
                 for row in 0..7 {
                     let terms = |k: usize| {
                         let diagonal = if k == row { shift } else { 0.0 };
@@ -283,7 +282,9 @@ mod tests {
             assert_eq!(jacobian.kinematics().is_some(), is_known);
             let mut factors = Factors::<f64, X, C>::new(&like);
             assert!(factors.factorise(shift, &jacobian, &like));
-            factors.solve(right.clone(), &jacobian, &like)
+            let mut solution = right.clone();
+            factors.solve(&mut solution, &jacobian);
+            solution
         })
     }
 
@@ -316,9 +317,12 @@ mod tests {
             jacobian.columns[column].set_element(row, f64::NAN);
             jacobian.look(&like);
             let mut factors = Factors::<f64, X, X>::new(&like);
-            let right = X::from_parts([1.0; 4], [1.0; 3]);
+            let mut right = X::from_parts([1.0; 4], [1.0; 3]);
             let exists = factors.factorise(40.0, &jacobian, &like);
-            let is_told = !exists || !factors.solve(right, &jacobian, &like).is_finite();
+            if exists {
+                factors.solve(&mut right, &jacobian);
+            }
+            let is_told = !exists || !right.is_finite();
             assert!(is_told, "{column} {row}");
         }
     }

@@ -88,6 +88,21 @@ pub struct RadauIntegration<S: Real, X: Vector<S>> {
 
 opaque!([S: Real, X: Vector<S>] RadauIntegration<S, X>, "RadauIntegration");
 
+/// The coefficients of a row. Not by `map`, which is no part of its caller.
+fn row<S: Real>([a, b, c]: [f64; 3]) -> [S; 3] {
+    [S::constant(a), S::constant(b), S::constant(c)]
+}
+
+/// A matrix times a column of slopes.
+fn product<S: Real, X: Vector<S>>([a, b, c]: [[f64; 3]; 3], slopes: &[X; 3]) -> [X; 3] {
+    let [a, b, c] = [row(a), row(b), row(c)];
+    [
+        combined(a, slopes),
+        combined(b, slopes),
+        combined(c, slopes),
+    ]
+}
+
 /// A sum of slopes.
 fn combined<S: Real, X: Vector<S>>([a, b, c]: [S; 3], [x, y, z]: &[X; 3]) -> X {
     let sum = x.zip(y, |x, y| y.fused(b, a * x));
@@ -137,26 +152,30 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
     /// which may be beyond 1.
     fn polynomial(&self, theta: S) -> X {
         let powers = [theta, theta * theta, theta * theta * theta];
-        let weights = tableau::POLYNOMIAL.map(|row| {
-            let terms = row.into_iter().zip(powers);
+        let weight = |coefficients: [f64; 3]| {
+            let terms = coefficients.into_iter().zip(powers);
             terms.fold(S::zero(), |sum, (p, power)| {
                 power.fused(S::constant(p), sum)
             })
-        });
-        combined(weights, &self.increments)
+        };
+        let [a, b, c] = tableau::POLYNOMIAL;
+        combined([weight(a), weight(b), weight(c)], &self.increments)
     }
 
     /// Where the iteration begins: the last polynomial goes on.
     fn guess(&self, step: S) -> [X; 3] {
         let [_, _, last] = &self.increments;
         if self.error.is_none() {
-            return [last, last, last].map(|x| x.zip(x, |_, _| S::zero()));
+            let nothing = last.zip(last, |_, _| S::zero());
+            return [nothing.clone(), nothing.clone(), nothing];
         }
         let ratio = step.quotient(self.step);
-        tableau::NODES.map(|node| {
+        let further = |node: f64| {
             let theta = S::constant(node).fused(ratio, S::one());
             self.polynomial(theta).zip(last, |x, last| x - last)
-        })
+        };
+        let [a, b, c] = tableau::NODES;
+        [further(a), further(b), further(c)]
     }
 
     /// Makes Jacobian and factors be those of the present state and this step. `false` if there are
@@ -200,10 +219,9 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
     ) -> Result<Option<Newton<S>>, Fault> {
         let shift = |number: f64| -S::constant(number).quotient(step);
         let [alpha, beta] = tableau::COMPLEX.map(shift);
-        let mut transformed =
-            tableau::INVERSE.map(|row| combined(row.map(S::constant), increments));
+        let mut transformed = product(tableau::INVERSE, increments);
         let mut newton = self.newton;
-        let mut slopes = [(); 3].map(|()| state.room());
+        let mut slopes = [state.room(), state.room(), state.room()];
         loop {
             for ((slope, increment), node) in
                 slopes.iter_mut().zip(&*increments).zip(tableau::NODES)
@@ -212,34 +230,44 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
                 let stage = state.plus([(S::one(), increment)]);
                 system.stage(time, &stage, slope)?;
             }
-            let [first, second, third] =
-                tableau::INVERSE.map(|row| combined(row.map(S::constant), &slopes));
-            let [u, v, w] = &transformed;
-            let right = first.zip(u, |f, u| u.fused(shift(tableau::REAL), f));
+            let [first, second, third] = product(tableau::INVERSE, &slopes);
+            let [u, v, w] = &mut transformed;
+            let mut change = first.zip(u, |f, u| u.fused(shift(tableau::REAL), f));
             let real = second.zip(v, |f, v| v.fused(alpha, f));
             let imaginary = third.zip(w, |f, w| w.fused(alpha, f));
-            let right_complex = ComplexColumn {
+            let mut complex = ComplexColumn {
                 real: real.zip(w, |x, w| w.fused(-beta, x)),
                 imaginary: imaginary.zip(v, |x, v| v.fused(beta, x)),
             };
-            let change = self.real.solve(right, &self.jacobian, &self.reached.state);
-            let complex = self
-                .complex
-                .solve(right_complex, &self.jacobian, &self.reached.state);
-            let changes = [change, complex.real, complex.imaginary];
-            let progress = newton.take(self.largest(&changes));
+            self.real.solve(&mut change, &self.jacobian);
+            self.complex.solve(&mut complex, &self.jacobian);
+            let ComplexColumn { real, imaginary } = &complex;
+            let progress = newton.take(self.largest([&change, real, imaginary]));
             if progress == Progress::Fails {
                 return Ok(None);
             }
-            for (x, change) in transformed.iter_mut().zip(&changes) {
+            for (x, change) in [(u, &change), (v, real), (w, imaginary)] {
                 *x = x.zip(change, |x, change| x + change);
             }
-            *increments =
-                tableau::TRANSFORMATION.map(|row| combined(row.map(S::constant), &transformed));
+            *increments = product(tableau::TRANSFORMATION, &transformed);
             if progress == Progress::Converged {
                 return Ok(Some(newton));
             }
         }
+    }
+
+    /// The size of the largest of these increments. NaN, or infinite, if one is not finite.
+    fn largest(&self, increments: [&X; 3]) -> S {
+        let state = &self.reached.state;
+        if S::CARRIES_DERIVATIVES {
+            let sizes = increments.map(|x| self.size(state, x));
+            return sizes.into_iter().fold(S::zero(), S::max);
+        }
+        let [a, b, c] = increments;
+        // A comparison loses the second number if it is none.
+        let add = |most: S, x: S| x.fused(S::zero(), greater(most, x.abs()));
+        let most = a.zip(b, |a, b| add(a.abs(), b));
+        self.size(state, &most.zip(c, add))
     }
 
     /// An increment, relative to what is allowed.
@@ -252,20 +280,6 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
         norm.quotient(self.controller.relative)
     }
 
-    /// The size of the largest of these increments. NaN, or infinite, if one is not finite.
-    fn largest(&self, increments: &[X; 3]) -> S {
-        let state = &self.reached.state;
-        if S::CARRIES_DERIVATIVES {
-            let sizes = increments.each_ref().map(|x| self.size(state, x));
-            return sizes.into_iter().fold(S::zero(), S::max);
-        }
-        let [a, b, c] = increments;
-        // A comparison loses the second number if it is none.
-        let add = |most: S, x: S| x.fused(S::zero(), greater(most, x.abs()));
-        let most = a.zip(b, |a, b| add(a.abs(), b));
-        self.size(state, &most.zip(c, add))
-    }
-
     /// The error of a step, relative to what is allowed, from the difference to a method of order
     /// 3; looked at once more where it was rejected before, for it is too large where a fast motion
     /// has not died out.
@@ -276,24 +290,22 @@ impl<S: Real, X: Vector<S>> RadauIntegration<S, X> {
         end: &X,
         again: bool,
     ) -> Result<S, Fault> {
-        let weights = tableau::ERROR.map(|weight| S::constant(weight).quotient(step));
+        let weights = row(tableau::ERROR).map(|weight: S| weight.quotient(step));
         let difference = combined(weights, increments);
-        let right = |slope: &X| slope.zip(&difference, |x, y| x + y);
-        let error = self.real.solve(
-            right(&self.reached.slope),
-            &self.jacobian,
-            &self.reached.state,
-        );
-        let size = self.size(end, &error);
+        let error = |slope: &X| {
+            let mut error = slope.zip(&difference, |x, y| x + y);
+            self.real.solve(&mut error, &self.jacobian);
+            error
+        };
+        let first = error(&self.reached.slope);
+        let size = self.size(end, &first);
         if !(again && size > S::one()) {
             return Ok(size);
         }
-        let mut slope = error.clone();
-        let there = self.reached.state.plus([(S::one(), &error)]);
+        let mut slope = first.clone();
+        let there = self.reached.state.plus([(S::one(), &first)]);
         system.stage(self.reached.time, &there, &mut slope)?;
-        let error = self
-            .real
-            .solve(right(&slope), &self.jacobian, &self.reached.state);
+        let error = error(&slope);
         Ok(self.size(end, &error))
     }
 

@@ -66,53 +66,47 @@ pub(super) fn factorise<S: Real, X: Vector<S>, C: Column<S, X>>(
     Some(inverse)
 }
 
-/// The solution for a right-hand side.
+/// Writes the solution in the place of a right-hand side.
 #[inline(always)]
 pub(super) fn solve<S: Real, X: Vector<S>, C: Column<S, X>>(
     (eliminations, rows): (&X::Each<C>, &X::Each<usize>),
     inverse: C::Number,
     kinematics: &Kinematics<'_, S, X>,
-    (mut right, like): (C, &X),
-) -> C {
+    right: &mut C,
+) {
     /// Up to so many velocities their columns are added, zeros and all, in one piece.
     const FEW: usize = 12;
-    let (first, count) = (like.coordinate_count(), like.velocities_slice().len());
-    let mut velocities = right.clone();
-    if first > 0 {
-        right.scale(inverse);
-    }
+    let first = right.like().coordinate_count();
+    let count = right.like().velocities_slice().len();
     for coordinate in kinematics.acting() {
-        let scaled = right.at(coordinate);
-        velocities.add_real_behind(scaled, &kinematics.columns[coordinate]);
+        let scaled = C::product(right.at(coordinate), inverse);
+        right.add_real_behind(scaled, &kinematics.columns[coordinate]);
     }
-    let mut solution = velocities.clone();
+    let mut velocities = right.clone();
     for row in 0..count {
-        solution.set_behind(row, velocities.behind(rows[first + row]));
+        velocities.set_behind(row, right.behind(rows[first + row]));
     }
     for place in 0..count {
-        solution.eliminate_behind(place, &eliminations[first + place]);
+        velocities.eliminate_behind(place, &eliminations[first + place]);
     }
     if first > 0 && count <= FEW {
+        right.scale(inverse);
         for row in 0..count {
-            let factor = C::product(inverse, solution.behind(row));
+            let factor = C::product(inverse, velocities.behind(row));
             right.add_real(factor, &kinematics.columns[first + row]);
         }
     } else {
         for coordinate in 0..first {
             let mut sum = right.at(coordinate);
             for (velocity, factor) in kinematics.moved[coordinate] {
-                if factor != S::zero() {
-                    let velocity = C::times(solution.behind(velocity), factor);
-                    sum = C::sum(sum, C::product(inverse, velocity));
-                }
+                sum = C::sum(sum, C::times(velocities.behind(velocity), factor));
             }
-            right.set(coordinate, sum);
+            right.set(coordinate, C::product(sum, inverse));
         }
     }
     for row in 0..count {
-        right.set_behind(row, solution.behind(row));
+        right.set_behind(row, velocities.behind(row));
     }
-    right
 }
 
 /// Exchanges two rows.
