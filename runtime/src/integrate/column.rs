@@ -1,4 +1,7 @@
 //! Columns of real and of complex numbers, of which implicit methods make matrices.
+//!
+//! Functions are parts of their callers, which know how long a slice is: with that and with what
+//! else `docs/decisions/010-matrices-by-columns.md` says, solutions took half the time.
 
 use crate::math::scalar::Real;
 use crate::state::vector::Vector;

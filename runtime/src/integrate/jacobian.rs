@@ -1,6 +1,5 @@
 //! The Jacobian of rates that an implicit method keeps, and what is known of its zeros.
 
-use super::column::Column;
 use super::newton::remember_columns;
 use super::{Memory, System};
 use crate::error::Fault;
@@ -13,13 +12,11 @@ pub(super) struct Jacobian<S: Real, X: Vector<S>> {
     pub(super) columns: X::Each<X>,
     /// Whether the rates of coordinates are made of velocities alone, of two at most.
     is_kinematic: bool,
-    /// The velocities that a coordinate is moved by, and the factors, which are zero where there are
-    /// fewer than two.
+    /// The velocities that a coordinate is moved by, and the factors, which are zero where there
+    /// are fewer than two.
     moved: X::Each<[(usize, S); 2]>,
     /// The coordinates that the rates of velocities depend on, and how many these are.
     acting: (X::Each<usize>, usize),
-    /// What velocities do by the coordinates that they move: columns, behind the coordinates.
-    coupling: X::Each<X>,
 }
 
 /// What a Jacobian has where the rates of coordinates are made of velocities alone.
@@ -27,7 +24,6 @@ pub(super) struct Kinematics<'a, S: Real, X: Vector<S>> {
     pub(super) columns: &'a X::Each<X>,
     pub(super) moved: &'a X::Each<[(usize, S); 2]>,
     acting: (&'a X::Each<usize>, usize),
-    pub(super) coupling: &'a X::Each<X>,
 }
 
 impl<S: Real, X: Vector<S>> Kinematics<'_, S, X> {
@@ -42,13 +38,11 @@ impl<S: Real, X: Vector<S>> Kinematics<'_, S, X> {
 impl<S: Real, X: Vector<S>> Jacobian<S, X> {
     /// A place for one between slopes like this.
     pub(super) fn new(like: &X) -> Self {
-        let nothing = like.each(like.zip(like, |_, _| S::zero()));
         Self {
-            columns: nothing.clone(),
+            columns: like.each(like.zip(like, |_, _| S::zero())),
             is_kinematic: false,
             moved: like.each([(0, S::zero()); 2]),
             acting: (like.each(0), 0),
-            coupling: nothing,
         }
     }
 
@@ -77,7 +71,6 @@ impl<S: Real, X: Vector<S>> Jacobian<S, X> {
             columns: &self.columns,
             moved: &self.moved,
             acting: (&self.acting.0, self.acting.1),
-            coupling: &self.coupling,
         })
     }
 
@@ -91,21 +84,13 @@ impl<S: Real, X: Vector<S>> Jacobian<S, X> {
         if !self.is_kinematic {
             return;
         }
-        let nothing = like.zip(like, |_, _| S::zero());
-        for velocity in coordinates..coordinates + velocities {
-            self.coupling[velocity] = nothing.clone();
-        }
         let (acting, count) = &mut self.acting;
         *count = 0;
         for coordinate in 0..coordinates {
             let column = &self.columns[coordinate];
-            if column.velocities_slice().iter().all(|&x| x == S::zero()) {
-                continue;
-            }
-            acting[*count] = coordinate;
-            *count += 1;
-            for (velocity, factor) in self.moved[coordinate] {
-                self.coupling[coordinates + velocity].add_real_behind(factor, column);
+            if column.velocities_slice().iter().any(|&x| x != S::zero()) {
+                acting[*count] = coordinate;
+                *count += 1;
             }
         }
     }

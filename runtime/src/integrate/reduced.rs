@@ -28,8 +28,14 @@ pub(super) fn factorise<S: Real, X: Vector<S>, C: Column<S, X>>(
         let column = &mut eliminations[first + row];
         column.oppose_behind(&kinematics.columns[first + row]);
         column.set_behind(row, C::sum(column.behind(row), shift));
-        if first > 0 {
-            column.add_real_behind(C::negative(inverse), &kinematics.coupling[first + row]);
+    }
+    for coordinate in kinematics.acting() {
+        for (velocity, factor) in kinematics.moved[coordinate] {
+            if factor != S::zero() {
+                let by = C::times(inverse, -factor);
+                let column = &mut eliminations[first + velocity];
+                column.add_real_behind(by, &kinematics.columns[coordinate]);
+            }
         }
     }
     for row in 0..count {
