@@ -8,15 +8,15 @@ use crate::math::scalar::Real;
 use crate::mechanism::joint_rates::JointRates;
 
 impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
-    /// The same coordinates over [`Forward`] numbers with `K` derivatives, which nothing varies yet:
+    /// The same coordinates over [`Forward`] numbers with `K` derivatives. Nothing varies yet:
     /// [`set_value`](Self::set_value) takes a parameter or an input that does,
     /// [`state`](Self::state) coordinates and rates.
     ///
     /// Whatever is computed then comes with its derivatives. Of what is a derivative already these
-    /// are second ones: of [`linearise`](Self::linearise) how a linear model changes, of
-    /// [`Adjoint::gradient`](crate::sensitivity::Adjoint::gradient) products of the Hessian of a cost with the
-    /// directions along which controls vary. Kernels that derivatives are taken by are used as they
-    /// are.
+    /// are second ones: of [`linearise`](Self::linearise) how a linear model changes, of a
+    /// [`gradient`](crate::sensitivity::Adjoint::gradient) products of the Hessian of a cost with
+    /// the directions along which controls vary. Kernels that derivatives are taken by are used as
+    /// they are.
     ///
     /// ```
     /// use holonom::Forward;

@@ -157,12 +157,7 @@ where
         }
         let partition = self.known(state, Needs::Derivatives)?;
         if has_balls {
-            let rates = joint_rates::<M, S>(state);
-            linear.rates_by_positions = SMatrix::from_fn(|row, column| {
-                let place = self.equations.places.get(row).copied().unwrap_or(0);
-                let column = partition.columns.get(column);
-                column.map_or(S::zero(), |column| turned::<M, S>(place, &rates, column))
-            });
+            linear.rates_by_positions = self.turned_rates(state, &partition);
         }
         // With `M a = -h`, `M da = -(d(M) a + dh)`: what changes the efforts of these
         // accelerations.
@@ -234,6 +229,20 @@ where
             }
         }
         finite(linear)
+    }
+
+    /// What rates of balls change by with positions, see [`turned`].
+    fn turned_rates(
+        &self,
+        state: &M::JointState<S>,
+        partition: &Partition<M, N, S>,
+    ) -> SMatrix<S, N, N> {
+        let rates = joint_rates::<M, S>(state);
+        SMatrix::from_fn(|row, column| {
+            let place = self.equations.places.get(row).copied().unwrap_or(0);
+            let column = partition.columns.get(column);
+            column.map_or(S::zero(), |column| turned::<M, S>(place, &rates, column))
+        })
     }
 
     /// The efforts of accelerations, where they are wanted, and readings, along some directions.

@@ -80,8 +80,8 @@ pub(crate) const QUARTER_BY_FORTY: [f64; 3] = [
 /// The same for `f32` and up to 2^7 quarters.
 pub(crate) const QUARTER_BY_SEVENTEEN: [f32; 3] = [1.570_785_5, 1.080_427_3e-5, 6.077_1e-11];
 
-/// `[sin a, 1 - cos a]` of an angle that is so many quarters of a turn ahead of one with these: what
-/// remains of whole turns decides. Neither is a small difference.
+/// `[sin a, 1 - cos a]` of an angle that is so many quarters of a turn ahead of one with these, of
+/// which the two lowest bits decide. Neither is a small difference.
 #[inline(always)]
 pub(crate) fn ahead<S: Scalar>([sine, versine]: [S; 2], quarters: u8) -> [S; 2] {
     let sign = |number: S| if quarters & 2 == 0 { number } else { -number };

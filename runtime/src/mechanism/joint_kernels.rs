@@ -97,7 +97,8 @@ pub trait JointCoordinates: Mechanism {
         Self::evaluate_joints_into::<S, T>(constants, coefficients, time, state, rates, multipliers)
     }
 
-    /// With `kernels = [derivatives]`, the inputs by which there are derivatives, by their places in [`Report::values`](crate::Report::values).
+    /// With `kernels = [derivatives]`, the inputs by which there are derivatives, by their places
+    /// in [`Report::values`](crate::Report::values).
     const DERIVED_BY: Option<&'static [usize]> = None;
 
     /// The accelerations of the rates of the joints, and behind them the columns of their

@@ -226,14 +226,6 @@ fn more_increments<
     sums
 }
 
-/// What a term of a sum turns pairs by.
-#[inline(always)]
-fn pairs_of<S: Scalar, const P: usize, const Q: usize, const U: usize, const A: usize>(
-    (factor, slope): (S, &JointState<S, P, Q, U, A>),
-) -> (S, &[[S; 2]; P]) {
-    (factor, &slope.pairs)
-}
-
 /// One, with the derivatives of the angle of a pair.
 fn a_radian<S: Real>([c, s]: [S; 2]) -> S {
     S::one() + (s * c.plain() - c * s.plain())
@@ -375,8 +367,9 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const
             *self = from.plus(terms);
             return;
         }
+        let turning = terms.map(|(factor, slope)| (factor, &slope.pairs));
         for place in 0..TURNS {
-            turn_apart(&mut self.pairs, &from.pairs, place, &terms.map(pairs_of));
+            turn_apart(&mut self.pairs, &from.pairs, place, &turning);
         }
         self.set_others(from, terms);
     }
