@@ -119,7 +119,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     }
 
     /// Goes across a length of zero by the velocities, up to a time (s) at the most; whether that
-    /// was planned. No method can: its stages would meet the zero.
+    /// was planned. No method can: its stages would meet the zero. Refused where it takes longer
+    /// than any step, and leads farther than the mechanism is large.
     pub(super) fn goes_across(
         &mut self,
         At {
@@ -134,8 +135,18 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         self.course.passing.next = self.course.passing.limit.take();
         self.course.passing.ends_with_a_jump();
         let end = until.min(*time + step);
-        let rates = M::coordinate_rates(self.march.equations().constants(), state);
+        let constants = self.march.equations().constants();
+        let rates = M::coordinate_rates(constants, state);
         let rates = M::State::from_parts(rates, Array::zeros());
+        let longest = self.course.passing.longest;
+        if longest > S::zero() && step > longest {
+            // Numbers that have grown so far tell no place from another on the way of a step.
+            let way = largest(rates.coordinates().as_slice()) * step;
+            let is_within = way <= largest(M::initial_state(constants).coordinates().as_slice());
+            if !is_within {
+                return Err(holds::<S, M>(self.course.passing.place, *time));
+            }
+        }
         *state = state.plus([(end - *time, &rates)]);
         *time = end;
         self.course.unseen += 1;

@@ -177,7 +177,8 @@ fn it_keeps_its_angular_momentum() {
 #[test]
 fn steps_that_are_too_long_for_the_springs_are_named() {
     let governor = FlyballGovernor::default();
-    for step in [0.01, 5e-3, 2e-3] {
+    // At some of these a length of zero is met where numbers tell no place from another.
+    for step in [0.01, 5.14e-3, 5.11e-3, 5e-3, 4.87e-3, 2e-3] {
         let run = || governor.simulation(Baumgarte::new(10.0, 10.0), Rk4::every(step));
         let [bodies, joints] = [
             run()
