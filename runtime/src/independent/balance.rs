@@ -1,8 +1,11 @@
 //! Newton's method on accelerations, for all that seeks equilibria.
 
+use core::array::from_fn;
+
 use nalgebra::{SMatrix, SVector};
 
 use super::elimination::Elimination;
+use super::equations::Factors;
 use super::partition::write_rates;
 use super::{Equations, IndependentCoordinates};
 use crate::error::step::counted;
@@ -72,6 +75,31 @@ where
             *floor = sum * S::EPSILON * S::constant(100.0);
         }
         Ok(floor)
+    }
+
+    /// What round-off leaves of efforts: that of their own, and of those that inertia couples them
+    /// with. About a vertical axis, say, weights leave nothing else.
+    pub(super) fn noise(
+        &self,
+        state: &M::JointState<S>,
+        stiffness: &SMatrix<S, N, N>,
+        scales: &[S; N],
+    ) -> Result<[S; N], Fault> {
+        let mass = self.mass(state)?;
+        let own = row_sizes(stiffness, scales);
+        let one = |row: usize, column: usize| S::constant(f64::from(u8::from(row == column)));
+        let mut inverse: [[S; N]; N] = from_fn(|row| from_fn(|column| one(row, column)));
+        Factors::of(mass.data.0).solve_each(&mut inverse);
+        let sum = |row: &[S; N], by: &[S; N]| {
+            let parts = row.iter().zip(by);
+            parts.fold(S::zero(), |sum, (entry, &by)| entry.abs().fused(by, sum))
+        };
+        let moved = inverse.map(|row| sum(&row, &own));
+        let mut noise = [S::zero(); N];
+        for (noise, row) in noise.iter_mut().zip(&mass.data.0) {
+            *noise = sum(row, &moved) * S::EPSILON * S::constant(100.0);
+        }
+        Ok(noise)
     }
 
     /// A state in which coordinates that move have no part in the accelerations.

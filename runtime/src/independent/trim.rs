@@ -98,10 +98,9 @@ where
             let efforts = -space.bias(state)?;
             let values = adjusted.map(|of| space.present(of, rates));
             let mut scales = space.scales();
-            let sizes = sizes(&linear, &scales);
-            let noise = S::EPSILON * S::constant(100.0);
-            let stiffness = row_sizes(&linear.by_positions, &scales);
-            let floor = with_values(stiffness.map(|size| size * noise), &linear, &values);
+            let noise = space.noise(state, &linear.by_positions, &scales)?;
+            let sizes = sizes(&linear, &scales, &noise);
+            let floor = with_values(noise, &linear, &values);
             let mut matrix = linear.by_positions;
             for (place, &number) in numbers.iter().enumerate() {
                 let column = linear.by_values.column(place);
@@ -129,14 +128,9 @@ where
             if longest(&way, &scales) <= tolerance
                 && explained.all(|(off, floor)| off.abs() <= floor)
             {
-                if let Some(fault) = no_effect {
-                    return Err(fault.into());
-                }
-                let ((space, rates), (state, _)) = trial(S::one()).unwrap_or((set, here));
-                space.off_jumps(&state)?;
-                let state = space.steady(&state, &linear.by_positions, &rates)?;
-                let state = space.within_limits(state)?;
-                return Ok((state, adjusted.map(|of| space.present(of, &rates))));
+                no_effect.map_or(Ok(()), Err)?;
+                let (set, (state, _)) = trial(S::one()).unwrap_or((set, here));
+                return held_by((set, state), &linear, &adjusted);
             }
             let before = square(&efforts, &sizes);
             let mut share = Real::max(longest(&free, &scales), S::one()).reciprocal();
@@ -152,6 +146,12 @@ where
                 }
                 share = share * S::constant(0.5);
             }
+            // Of a way that round-off has led, nothing becomes smaller.
+            let mut balanced = efforts.iter().zip(floor);
+            if next.is_none() && balanced.all(|(left, floor)| left.abs() <= floor) {
+                no_effect.map_or(Ok(()), Err)?;
+                return held_by((set, here.0), &linear, &adjusted);
+            }
             let Some(next) = next else {
                 // What no mechanism can have is the cause where it is sought.
                 for (place, &of) in adjusted.iter().enumerate() {
@@ -166,6 +166,22 @@ where
         }
         Err(not_converged(STEPS, &here.1))
     }
+}
+
+/// A state that was found, with what holds it there.
+fn held_by<M, const N: usize, const K: usize, S>(
+    ((space, rates), state): (Set<M, N, S>, M::JointState<S>),
+    linear: &Linearised<N, K, 0, S>,
+    adjusted: &[Adjusted; K],
+) -> Result<(M::JointState<S>, [S; K]), Fault>
+where
+    M: HasInverse + HasMassMatrix,
+    S: Real,
+{
+    space.off_jumps(&state)?;
+    let state = space.steady(&state, &linear.by_positions, &rates)?;
+    let state = space.within_limits(state)?;
+    Ok((state, adjusted.map(|of| space.present(of, &rates))))
 }
 
 /// The state a way from another one, with quantities set.
@@ -187,14 +203,16 @@ where
 }
 
 /// How much each acceleration changes over a radian, or over a length of the mechanism; by a unit
-/// of the values where it does not depend on positions.
+/// of the values where it does not depend on positions, but for round-off.
 pub(super) fn sizes<S: Real, const N: usize, const K: usize>(
     linear: &Linearised<N, K, 0, S>,
     scales: &[S; N],
+    noise: &[S; N],
 ) -> [S; N] {
     let mut sizes = row_sizes(&linear.by_positions, scales);
-    for (size, row) in sizes.iter_mut().zip(linear.by_values.row_iter()) {
-        if *size <= S::zero() {
+    let rows = linear.by_values.row_iter().zip(noise);
+    for (size, (row, &noise)) in sizes.iter_mut().zip(rows) {
+        if *size <= noise {
             *size = row.iter().fold(S::zero(), |sum, entry| sum + entry.abs());
         }
     }

@@ -194,7 +194,7 @@ impl<const N: usize, S: Real> Walk<N, S> {
             let (space, rates) = &set;
             let value = space.present(self.along, rates);
             let linear = space.linearise_by(&state, &[self.along])?;
-            let sizes = sizes(&linear, &self.scales);
+            let sizes = sizes(&linear, &self.scales, &[S::zero(); N]);
             let (particular, tangent, unexplained) =
                 self.directions(&linear, &left, &sizes, &mut leading);
             let size = self.product(&tangent, &tangent).sqrt();
