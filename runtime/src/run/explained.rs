@@ -8,6 +8,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::monitor::fastest;
 use crate::run::driver::Driver;
 use crate::run::passages::LENGTH;
+use crate::state::vector::Vector as _;
 
 impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// A fault with what the run knows of its cause.
@@ -58,7 +59,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let rate = fastest::<S, M>(constants, state);
         let rate = self.course.gone.map_or(rate, |gone| rate.max(gone));
         if let (Some(turned), Some(step)) = (turned, self.course.settings.fixed_step)
-            && exceeds(step * rate, turned)
+            && (exceeds(step * rate, turned) || not_finite && has_grown::<S, M>(state))
         {
             return Fault::Step(StepFault::Unstable {
                 step: step.to_f64(),
@@ -66,6 +67,18 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         }
         equations.explained(fault, self.course.settings.absolute, last_good)
     }
+}
+
+/// Whether derivatives that a state carries are beyond what may be multiplied. What stands still
+/// may have such derivatives where a step is too long.
+fn has_grown<S: Real, M: Mechanism>(state: &M::State<S>) -> bool {
+    let largest = S::smallest().sqrt().reciprocal().to_f64();
+    let mut grown = false;
+    state.for_each(|element| {
+        let slopes = (0..).map_while(|direction| element.derivative(direction));
+        grown |= slopes.fold(false, |any, slope| any | exceeds(slope.abs(), largest));
+    });
+    grown
 }
 
 /// Whether a number is above a bound; what is no number is above any.
