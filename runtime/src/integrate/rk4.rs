@@ -65,8 +65,24 @@ impl<S: Scalar, Y: System<S>> OneStep<S, Y> for Rk4 {
         let third = sixth + sixth;
         if Y::State::PLUS_IS_COSTLY {
             let (mut second, mut penultimate) = (room_for(state), room_for(state));
-            let (mut last, mut at) = (room_for(state), room_for(state));
-            let (mut midway, mut end) = (room_for(state), room_for(state));
+            let mut last = room_for(state);
+            if !S::IS_WIDE {
+                let [midway, end] = state.plus_once_and_twice(half, first);
+                system.stage(time + half, &midway, &mut second)?;
+                let at = state.plus_beside(&midway, (half, first), [(half, &second)]);
+                system.stage(time + half, &at, &mut penultimate)?;
+                let at = state.plus_beside(&end, (step, first), [(step, &penultimate)]);
+                system.stage(time + step, &at, &mut last)?;
+                let terms = [
+                    (sixth, first),
+                    (third, &second),
+                    (third, &penultimate),
+                    (sixth, &last),
+                ];
+                return Ok(state.plus_beside(&end, (step, first), terms));
+            }
+            // States of such numbers are large: each is written where it belongs.
+            let (mut at, mut midway, mut end) = (room_for(state), room_for(state), room_for(state));
             midway.set_plus_once_and_twice(&mut end, state, (half, first));
             system.stage(time + half, &midway, &mut second)?;
             at.set_plus_beside((state, &midway), (half, first), [(half, &second)]);

@@ -405,10 +405,13 @@ macro_rules! real {
                 #[inline(never)]
                 fn of_any<const N: usize>(angles: &[$float; N], turns: &mut [[$float; 2]; N]) {
                     const SOME: $float = $quarter_bound;
-                    let near = angles
-                        .iter()
-                        .fold(true, |near, angle| near & (angle.abs() < SOME));
-                    if !near {
+                    // Of few, and without registers of several, each by itself is less to do.
+                    let are_together = N >= 4
+                        && cfg!(any(target_feature = "sse2", target_feature = "neon"))
+                        && angles
+                            .iter()
+                            .fold(true, |near, angle| near & (angle.abs() < SOME));
+                    if !are_together {
                         for (turn, &angle) in turns.iter_mut().zip(angles) {
                             *turn = if angle.abs() < SOME {
                                 of_some_turns(angle)

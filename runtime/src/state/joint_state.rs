@@ -385,21 +385,18 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const
             self.set_plus(from, [(factor, direction)]);
             return;
         }
-        if Self::IS_APART {
-            for place in 0..TURNS {
-                let to = [&mut self.pairs, &mut twice.pairs];
-                turn_once_and_twice_apart(to, &from.pairs, place, (factor, &direction.pairs));
-            }
-        } else {
-            let angles = increments(&[(factor, direction)]);
-            [self.pairs, twice.pairs] = turned_once_and_twice(&from.pairs, &angles);
+        if !Self::IS_APART {
+            [*self, *twice] = from.plus_once_and_twice(factor, direction);
+            return;
+        }
+        for place in 0..TURNS {
+            let to = [&mut self.pairs, &mut twice.pairs];
+            turn_once_and_twice_apart(to, &from.pairs, place, (factor, &direction.pairs));
         }
         self.set_others(from, [(factor, direction)]);
         twice.set_others(from, [(factor + factor, direction)]);
     }
 
-    /// Pairs go on from those that are known by little angles: that is less to compute, and what
-    /// waits for the last slope is short.
     #[inline(always)]
     fn set_plus_beside<const K: usize>(
         &mut self,
@@ -407,9 +404,34 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const
         along: (S, &Self),
         terms: [(S, &Self); K],
     ) {
-        if !Self::USES_NEAR {
+        if Self::USES_NEAR {
+            *self = from.plus_beside(near, along, terms);
+        } else {
             self.set_plus(from, terms);
-            return;
+        }
+    }
+
+    #[inline(always)]
+    fn plus_once_and_twice(&self, factor: S, direction: &Self) -> [Self; 2] {
+        let angles = increments(&[(factor, direction)]);
+        let [once, twice] = turned_once_and_twice(&self.pairs, &angles);
+        [
+            self.plus_with(once, [(factor, direction)]),
+            self.plus_with(twice, [(factor + factor, direction)]),
+        ]
+    }
+
+    /// Pairs go on from those that are known by little angles: that is less to compute, and what
+    /// waits for the last slope is short.
+    #[inline(always)]
+    fn plus_beside<const K: usize>(
+        &self,
+        near: &Self,
+        along: (S, &Self),
+        terms: [(S, &Self); K],
+    ) -> Self {
+        if !Self::USES_NEAR {
+            return self.plus(terms);
         }
         let (factor, slope) = along;
         let angles = more_increments(increments(&[(-factor, slope)]), &terms);
@@ -424,13 +446,12 @@ impl<S: Scalar, const TURNS: usize, const REST: usize, const RATES: usize, const
             }
         } else {
             let whole = increments(&terms);
-            let (from, angles) = (from.pairs.iter().zip(&whole), &angles);
+            let (from, angles) = (self.pairs.iter().zip(&whole), &angles);
             for ((pair, (&from, &whole)), &angle) in pairs.iter_mut().zip(from).zip(angles) {
                 *pair = turned_beside((*pair, angle), (from, whole));
             }
         }
-        self.pairs = pairs;
-        self.set_others(from, terms);
+        self.plus_with(pairs, terms)
     }
 
     #[inline(always)]

@@ -121,6 +121,27 @@ pub trait Vector<S: Scalar>: Clone {
         result
     }
 
+    /// [`Vector::plus`] of one direction, by a factor and by twice that factor: what these have in
+    /// common is computed once.
+    #[must_use]
+    fn plus_once_and_twice(&self, factor: S, direction: &Self) -> [Self; 2] {
+        [factor, factor + factor].map(|factor| self.plus([(factor, direction)]))
+    }
+
+    /// [`Vector::plus`] of directions that hardly differ from one for which the sum is known:
+    /// `near` is `self.plus([along])`. Where that helps, the result is `near` and what the
+    /// increments differ by.
+    #[must_use]
+    fn plus_beside<const N: usize>(
+        &self,
+        near: &Self,
+        along: (S, &Self),
+        terms: [(S, &Self); N],
+    ) -> Self {
+        let _ = (near, along);
+        self.plus(terms)
+    }
+
     /// Writes [`Vector::plus`] of another vector here: numbers that are arrays make states large,
     /// and each is then written once. What no integrator moves, see [`Vector::turns`], has to be
     /// the same in both, as [`Vector::room`] makes it.
@@ -128,9 +149,9 @@ pub trait Vector<S: Scalar>: Clone {
         *self = from.plus(terms);
     }
 
-    /// Writes [`Vector::plus`] of one direction, by a factor here, and by twice that factor: what
-    /// these have in common is computed once. The latter is for [`Vector::set_plus_beside`] alone:
-    /// nothing is written there where [`Vector::USES_NEAR`] is not said.
+    /// Writes [`Vector::plus_once_and_twice`], the one here. The latter is for
+    /// [`Vector::set_plus_beside`] alone: nothing is written there where [`Vector::USES_NEAR`] is
+    /// not said.
     fn set_plus_once_and_twice(
         &mut self,
         twice: &mut Self,
@@ -143,9 +164,7 @@ pub trait Vector<S: Scalar>: Clone {
         }
     }
 
-    /// Writes [`Vector::plus`] of directions that hardly differ from one for which the sum is
-    /// known: `near` is `from.plus([along])`. Where that helps, the result is `near` and what the
-    /// increments differ by.
+    /// Writes [`Vector::plus_beside`] of another vector here.
     fn set_plus_beside<const N: usize>(
         &mut self,
         (from, near): (&Self, &Self),
