@@ -1,5 +1,5 @@
 //! A trajectory that is found by Newton's method: the pushes with which a crane brings its load two
-//! metres to the side, to rest, by exact first and second derivatives of a whole run.
+//! metres to the side, to rest. First and second derivatives are exact ones of a whole run.
 //!
 //! The gradient comes from the adjoint. Over numbers that carry derivatives it comes with products
 //! of the Hessian, four columns by each pass. Where the Hessian is not positive definite, its

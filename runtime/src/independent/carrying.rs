@@ -13,10 +13,10 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     /// [`state`](Self::state) coordinates and rates.
     ///
     /// Whatever is computed then comes with its derivatives. Of what is a derivative already these
-    /// are second ones: of [`linearise`](Self::linearise) how a linear model changes, of a
-    /// [`gradient`](crate::sensitivity::Adjoint::gradient) products of the Hessian of a cost with
-    /// the directions along which controls vary. Kernels that derivatives are taken by are used as
-    /// they are.
+    /// are second ones. Of [`linearise`](Self::linearise) they are how a linear model changes. Of a
+    /// [`gradient`](crate::sensitivity::Adjoint::gradient) they are products of the Hessian of a
+    /// cost with the directions along which controls vary. Kernels that derivatives are taken by
+    /// are used as they are.
     ///
     /// ```
     /// use holonom::Forward;

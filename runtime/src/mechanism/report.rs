@@ -402,8 +402,8 @@ pub struct Kernel {
     /// What one call costs.
     pub operations: Operations,
     /// About how many cycles a call takes that waits for the one before, in double precision on an
-    /// x86-64 with AVX2: an estimate, which most kernels of more than a hundred operations meet
-    /// within 20 %.
+    /// x86-64 with AVX2. It is an estimate, which `study estimate` holds against measured times. Of
+    /// short kernels it is too large.
     pub cycles: usize,
 }
 

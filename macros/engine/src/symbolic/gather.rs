@@ -12,7 +12,7 @@ use super::time::time;
 
 impl Kernel {
     /// Takes common numbers out of sums, if that leaves fewer operations, with those on the longest
-    /// path counted twice, and takes no longer. `whole` nodes stay: something else is put in their
+    /// path counted twice, and takes no longer. `whole` nodes stay. Something else is put in their
     /// place later, and what is made of a sum taken apart would not be replaced.
     pub(crate) fn gather(&mut self, whole: &[Expr]) {
         let gathered = gathered(&mut self.arena, &self.outputs, whole);

@@ -1,11 +1,11 @@
 //! What a call of a kernel takes on a processor, in cycles.
 //!
 //! Out of order, a straight line is bound by its units, each busy with one operation after the
-//! other, and by its path, the longest chain of operations that wait for each other. A processor
-//! looks ahead over a few hundred operations, so that neither hides the other wholly. What a call
-//! takes that waits for the one before was measured: the time of its units, half of its path, and
-//! what its outputs take to come back through memory (decision 46). In order, it is the sum of what
-//! its operations take: the path counts nothing.
+//! other. It is bound by its path as well, the longest chain of operations that wait for each
+//! other. A processor looks ahead over a few hundred operations, so that neither hides the other
+//! wholly. Measured was a call that waits for the one before (decision 46): it takes the time of
+//! its units, half of its path, and what its outputs take to come back through memory. In order, it
+//! is the sum of what its operations take: the path counts nothing.
 //!
 //! A product that one sum alone uses is one operation with it, as the code is written.
 
