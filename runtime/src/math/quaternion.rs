@@ -73,6 +73,36 @@ pub(crate) fn from_matrix<S: Real>(rows: &[[S; 3]; 3]) -> [S; 4] {
     normalised(&p)
 }
 
+/// The same of numbers that cannot be compared: all four ways, of which one is taken.
+pub(crate) fn from_matrix_by_selection<S: Scalar>(rows: &[[S; 3]; 3]) -> [S; 4] {
+    let [[a11, a12, a13], [a21, a22, a23], [a31, a32, a33]] = *rows;
+    let one = S::one();
+    let [e0, e1, e2, e3] = [
+        one + a11 + a22 + a33,
+        one + a11 - a22 - a33,
+        one - a11 + a22 - a33,
+        one - a11 - a22 + a33,
+    ];
+    let [x, y, z] = [a32 - a23, a13 - a31, a21 - a12];
+    let [xy, xz, yz] = [a21 + a12, a13 + a31, a32 + a23];
+    let ways = [
+        [e0, x, y, z],
+        [x, e1, xy, xz],
+        [y, xy, e2, yz],
+        [z, xz, yz, e3],
+    ];
+    // The last way that is beaten by none before it, from behind: the first of equal ones.
+    let [first, second, third, mut p] = ways;
+    let mut most = e3;
+    for (square, way) in [(e2, third), (e1, second), (e0, first)] {
+        for (element, other) in p.iter_mut().zip(way) {
+            *element = square.select(most, *element, other);
+        }
+        most = square.select(most, most, square);
+    }
+    normalised(&p)
+}
+
 /// `p / |p|`.
 pub(crate) fn normalised<S: Scalar>(p: &[S; 4]) -> [S; 4] {
     let [e0, e1, e2, e3] = *p;
@@ -137,6 +167,17 @@ pub(crate) fn scale_near_unit_length<S: Scalar>(coordinates: &mut [S], place: us
     let excess = norm(&read(coordinates, place)) - S::one();
     let is_near = S::are_within(&[excess], 0.9 * NEAR);
     is_near.then(|| scale(coordinates, place, by_series(excess)))
+}
+
+/// The factor of [`to_unit_length`], of numbers that cannot be compared; one where there is none.
+pub(crate) fn unit_factor<S: Scalar>(p: &[S; 4]) -> S {
+    let excess = norm(p) - S::one();
+    let length = length(p);
+    let is_finite = length.select(S::constant(f64::INFINITY), length.reciprocal(), S::one());
+    let root = S::zero().select(length, is_finite, S::one());
+    excess
+        .abs()
+        .select(S::constant(NEAR), by_series(excess), root)
 }
 
 /// `p.p`, summed as generated kernels do, so that the compiler sees the same sum.

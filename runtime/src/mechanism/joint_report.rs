@@ -6,7 +6,7 @@ use core::fmt;
 use core::ops::Range;
 
 use crate::error::readable::Given;
-use crate::math::scalar::Real;
+use crate::math::scalar::Scalar;
 use crate::mechanism::joint_kernels::{Freedom, JointMotion, JointParts, JointReport};
 
 impl JointMotion {
@@ -52,7 +52,7 @@ impl JointMotion {
         }
     }
 
-    fn signed<S: Real>(&self, value: S) -> S {
+    fn signed<S: Scalar>(&self, value: S) -> S {
         if self.is_reversed() { -value } else { value }
     }
 }
@@ -66,7 +66,7 @@ impl JointReport {
     /// angle of the joint = +-((angle - zero) - (angle - zero of the motion that it is against))
     /// ```
     #[must_use]
-    pub fn coordinate<S: Real, X: JointParts<S>>(&self, motion: usize, state: &X) -> Option<S> {
+    pub fn coordinate<S: Scalar, X: JointParts<S>>(&self, motion: usize, state: &X) -> Option<S> {
         let motion = self.motions.get(motion)?;
         match motion.freedom {
             Freedom::Slide => state.rest_slice().get(motion.coordinate).copied(),
@@ -86,7 +86,7 @@ impl JointReport {
     /// The rate of the joint itself (rad/s, m/s). `None` as of [`JointReport::coordinate`]. It is
     /// linear in the rates of a state, so that it reads accelerations of a slope as well.
     #[must_use]
-    pub fn rate<S: Real, X: JointParts<S>>(&self, motion: usize, state: &X) -> Option<S> {
+    pub fn rate<S: Scalar, X: JointParts<S>>(&self, motion: usize, state: &X) -> Option<S> {
         let motion = self.motions.get(motion)?;
         if motion.freedom == Freedom::Ball {
             return None;
@@ -131,7 +131,7 @@ impl JointReport {
     }
 
     /// Puts the unwrapped angles of screws right, which rounding takes away from their pairs.
-    pub(crate) fn rewrap_screws<S: Real, X: JointParts<S>>(&self, state: &mut X) {
+    pub(crate) fn rewrap_screws<S: Scalar, X: JointParts<S>>(&self, state: &mut X) {
         for motion in self.motions {
             let Freedom::Screw { counter, .. } = motion.freedom else {
                 continue;
@@ -153,7 +153,7 @@ impl JointReport {
 }
 
 /// Cosine and sine of an angle since the reference configuration.
-fn since_reference<S: Real, X: JointParts<S>>(motion: &JointMotion, state: &X) -> Option<[S; 2]> {
+fn since_reference<S: Scalar, X: JointParts<S>>(motion: &JointMotion, state: &X) -> Option<[S; 2]> {
     let [c, s] = *state.pairs_slice().get(motion.coordinate)?;
     let zero = S::constant(motion.zero);
     let (a, b) = (zero.cos(), zero.sin());

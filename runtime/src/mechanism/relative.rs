@@ -256,22 +256,9 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
                 scale(rates.rest_slice_mut(), place, factor);
             }
         }
-        if const { M::JOINT_REPORT.has_screws() } {
-            M::JOINT_REPORT.rewrap_screws(state);
-        }
-        if M::JOINT_REPORT.rewraps {
-            let mut bodies = bodies_of::<S, M>(constants, state);
-            M::rewrap(&absolute.constants, &mut bodies);
-            let counted = bodies.coordinates().as_slice();
-            let counted = counted.get(M::REPORT.coordinates..).unwrap_or(&[]);
-            let rest = state.rest_slice_mut();
-            let last = M::JOINT_REPORT.auxiliaries + M::JOINT_REPORT.states.len();
-            let first = rest.len().saturating_sub(last);
-            let counted = counted.iter().take(M::JOINT_REPORT.auxiliaries);
-            for (place, &value) in counted.enumerate() {
-                write(rest, first + place, [value]);
-            }
-        }
+        recount::<S, M>(&absolute.constants, state, |state| {
+            bodies_of::<S, M>(constants, state)
+        });
         norm_drift
     }
 
@@ -357,6 +344,31 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
 
     fn keeps_equations(joint: &str) -> bool {
         M::JOINT_REPORT.closing.contains(&joint)
+    }
+}
+
+/// Puts the auxiliary variables of a state right.
+#[inline(always)]
+pub(crate) fn recount<S: Scalar, M: JointCoordinates>(
+    absolute: &M::Constants<S>,
+    state: &mut M::JointState<S>,
+    bodies: impl FnOnce(&M::JointState<S>) -> M::State<S>,
+) {
+    if const { M::JOINT_REPORT.has_screws() } {
+        M::JOINT_REPORT.rewrap_screws(state);
+    }
+    if M::JOINT_REPORT.rewraps {
+        let mut bodies = bodies(state);
+        M::rewrap(absolute, &mut bodies);
+        let counted = bodies.coordinates().as_slice();
+        let counted = counted.get(M::REPORT.coordinates..).unwrap_or(&[]);
+        let rest = state.rest_slice_mut();
+        let last = M::JOINT_REPORT.auxiliaries + M::JOINT_REPORT.states.len();
+        let first = rest.len().saturating_sub(last);
+        let counted = counted.iter().take(M::JOINT_REPORT.auxiliaries);
+        for (place, &value) in counted.enumerate() {
+            write(rest, first + place, [value]);
+        }
     }
 }
 

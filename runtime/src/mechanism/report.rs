@@ -305,6 +305,10 @@ pub struct ValueInfo {
     pub name: &'static str,
     /// Whether it may change at every step.
     pub is_input: bool,
+    /// How many further numbers it has among the parameters, behind the first ones of all values:
+    /// the rate and the acceleration of a [`Setpoint`](crate::mechanism::Setpoint), the table of a
+    /// [`Spline`](crate::spline::Spline).
+    pub further: usize,
 }
 
 /// A joint or a force by its place in a [`Report`].

@@ -229,7 +229,8 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     });
     let values = model.values.iter().map(|value| {
         let (name, is_input) = (value.name.to_string(), value.is_input);
-        quote!(#facade::__private::ValueInfo { name: #name, is_input: #is_input })
+        let further = value.kind.further();
+        quote!(#facade::__private::ValueInfo { name: #name, is_input: #is_input, further: #further })
     });
     let states = state_infos(model, layout.coordinates + layout.auxiliaries, facade);
     let bodies_and_shapes = model.bodies.iter().enumerate();

@@ -1,0 +1,311 @@
+//! The body of a function in C.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use super::Text;
+use super::support::Support;
+use crate::export::STATE;
+use crate::program::{Function, Kind, Output, Program};
+use crate::tape::{Binary, Call, Operation, Place, Unary};
+
+/// A body that is being written.
+pub(super) struct Body<'a> {
+    text: &'a Text,
+    program: &'a Program,
+    function: &'a Function,
+    /// How the numbers are written that the function is given.
+    given: Vec<String>,
+    /// How each place is written, once it is known.
+    names: Vec<String>,
+    needed: Vec<bool>,
+    called: Vec<bool>,
+    lines: String,
+    next: usize,
+    support: &'a mut BTreeSet<Support>,
+}
+
+impl Text {
+    /// A number of the type of the program.
+    #[expect(
+        clippy::unused_self,
+        reason = "a number is written as the text has numbers"
+    )]
+    pub(super) fn number(&self, value: f64) -> String {
+        if value.is_infinite() {
+            let sign = if value > 0.0 { "" } else { "-" };
+            return format!("REAL({sign}HUGE_VAL)");
+        }
+        if value.is_nan() {
+            return "(REAL(0.0) / REAL(0.0))".to_owned();
+        }
+        format!("REAL({value:?})")
+    }
+}
+
+/// The statements of a function, and what it calls of [`Support`].
+pub(super) fn body(
+    text: &Text,
+    program: &Program,
+    function: &Function,
+    support: &mut BTreeSet<Support>,
+) -> String {
+    let is_written = |output: &&Output| match function.arguments[output.argument].kind {
+        Kind::Struct(place) => {
+            let paths = text.paths(program, place);
+            paths.get(output.number).is_some_and(Option::is_some)
+        }
+        Kind::Number => false,
+    };
+    let outputs = function.outputs.iter().filter(is_written);
+    let outputs = outputs.map(|output| output.place).chain(function.returned);
+    let (needed, called) = function.tape.needed(outputs);
+    let mut given = Vec::new();
+    for argument in function
+        .arguments
+        .iter()
+        .filter(|argument| !argument.is_output)
+    {
+        match argument.kind {
+            Kind::Number => given.push(argument.name.to_owned()),
+            Kind::Struct(place) => {
+                given.extend(text.paths(program, place).into_iter().map(|path| {
+                    path.map_or_else(String::new, |path| format!("{}->{path}", argument.name))
+                }))
+            }
+        }
+    }
+    let mut body = Body {
+        text,
+        program,
+        function,
+        given,
+        names: vec![String::new(); needed.len()],
+        needed,
+        called,
+        lines: String::new(),
+        next: 1,
+        support,
+    };
+    body.write();
+    body.lines
+}
+
+impl Body<'_> {
+    fn write(&mut self) {
+        let function = self.function;
+        let mut calls = function.tape.calls().iter().enumerate().peekable();
+        for (place, operation) in function.tape.operations().iter().enumerate() {
+            while let Some((number, (call, _))) = calls.next_if(|(_, (_, at))| *at == place) {
+                if self.called[number] {
+                    self.call(number, call);
+                }
+            }
+            if self.needed[place] && self.names[place].is_empty() {
+                self.statement(place, *operation);
+            }
+        }
+        let outputs = &function.outputs;
+        for output in outputs {
+            let argument = &function.arguments[output.argument];
+            let Kind::Struct(of) = argument.kind else {
+                continue;
+            };
+            let paths = self.text.paths(self.program, of);
+            let Some(path) = paths.get(output.number).and_then(Option::as_ref) else {
+                continue;
+            };
+            let value = self.name(output.place);
+            let _ = writeln!(self.lines, "    {}->{path} = {value};", argument.name);
+        }
+        if let Some(place) = function.returned {
+            let value = self.name(place);
+            let _ = writeln!(self.lines, "    return {value};");
+        }
+    }
+
+    fn name(&self, place: Place) -> String {
+        self.names[place as usize].clone()
+    }
+
+    /// A name as an operand: a sign in front of it needs brackets behind an operator.
+    fn operand(&self, place: Place) -> String {
+        let name = self.name(place);
+        if name.starts_with('-') {
+            format!("({name})")
+        } else {
+            name
+        }
+    }
+
+    fn call_of(&mut self, support: Support, operands: &[Place]) -> String {
+        self.support.insert(support);
+        let operands: Vec<String> = operands.iter().map(|&place| self.name(place)).collect();
+        let name = self.text.named(support.name());
+        format!("{name}({})", operands.join(", "))
+    }
+
+    fn statement(&mut self, place: usize, operation: Operation) {
+        let expression = match operation {
+            Operation::Constant(bits) => {
+                self.names[place] = self.text.number(f64::from_bits(bits));
+                return;
+            }
+            Operation::Argument(number) => {
+                self.names[place] = self.given[number as usize].clone();
+                return;
+            }
+            // Written with its call.
+            Operation::Result { .. } => return,
+            Operation::Unary(Unary::Negation, of) => {
+                self.names[place] = format!("-{}", self.operand(of));
+                return;
+            }
+            Operation::Unary(Unary::TurnSine | Unary::TurnVersine, of) => {
+                self.turn(of);
+                return;
+            }
+            Operation::Unary(function, of) => self.unary(function, of),
+            Operation::Binary(function, of) => self.binary(function, of),
+            Operation::Fused(of) => self.call_of(Support::Fused, &of),
+            Operation::Select([a, b, less, otherwise]) => {
+                let [a, b, less, otherwise] = [a, b, less, otherwise].map(|of| self.operand(of));
+                format!("{a} < {b} ? {less} : {otherwise}")
+            }
+        };
+        let name = self.fresh('t');
+        let _ = writeln!(
+            self.lines,
+            "    const {} {name} = {expression};",
+            self.text.real()
+        );
+        self.names[place] = name;
+    }
+
+    fn fresh(&mut self, letter: char) -> String {
+        let name = format!("{letter}{}", self.next);
+        self.next += 1;
+        name
+    }
+
+    fn unary(&mut self, function: Unary, of: Place) -> String {
+        let support = match function {
+            Unary::Reciprocal => return format!("REAL(1.0) / {}", self.operand(of)),
+            Unary::SquareRoot => Support::SquareRoot,
+            Unary::Magnitude => Support::Magnitude,
+            Unary::Sine | Unary::TurnSine => Support::Sine,
+            Unary::Cosine | Unary::TurnVersine => Support::Cosine,
+            Unary::Exponential => Support::Exponential,
+            Unary::Rounding => Support::Rounding,
+            Unary::Negation => return format!("-{}", self.operand(of)),
+        };
+        self.call_of(support, &[of])
+    }
+
+    fn binary(&mut self, function: Binary, of: [Place; 2]) -> String {
+        let sign = match function {
+            Binary::Sum => '+',
+            Binary::Difference => '-',
+            Binary::Product => '*',
+            Binary::Angle => return self.call_of(Support::Angle, &of),
+            Binary::Least => return self.call_of(Support::Least, &of),
+        };
+        let [a, b] = of.map(|of| self.operand(of));
+        format!("{a} {sign} {b}")
+    }
+
+    /// Sine and versine at once.
+    fn turn(&mut self, of: Place) {
+        self.support.insert(Support::Turn);
+        let (sine, versine) = (self.fresh('s'), self.fresh('v'));
+        let (real, turn, angle) = (self.text.real(), self.text.named("turn"), self.name(of));
+        let _ = writeln!(self.lines, "    {real} {sine}, {versine};");
+        let _ = writeln!(self.lines, "    {turn}({angle}, &{sine}, &{versine});");
+        let operations = self.function.tape.operations().iter().enumerate();
+        for (place, operation) in operations {
+            match operation {
+                Operation::Unary(Unary::TurnSine, other) if *other == of => {
+                    self.names[place].clone_from(&sine);
+                }
+                Operation::Unary(Unary::TurnVersine, other) if *other == of => {
+                    self.names[place].clone_from(&versine);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// A call, with room for what it is given and for what it gives.
+    fn call(&mut self, number: usize, call: &Call) {
+        let called = &self.program.functions[call.function];
+        let mut given = call.given.iter();
+        let (mut arguments, mut results) = (Vec::new(), Vec::new());
+        if called.returned.is_some() {
+            results.push(self.fresh('p'));
+        }
+        for argument in &called.arguments {
+            let Kind::Struct(place) = argument.kind else {
+                if let Some(&place) = given.next() {
+                    arguments.push(self.name(place));
+                }
+                continue;
+            };
+            let of = &self.program.structs[place];
+            if argument.is_output {
+                let room = self.fresh('k');
+                let kind = self.text.named(of.name);
+                let _ = writeln!(self.lines, "    {kind} {room};");
+                let paths = of.paths();
+                results.extend(paths.into_iter().map(|path| format!("{room}.{path}")));
+                arguments.push(format!("&{room}"));
+            } else if place == STATE {
+                let numbers: Vec<Place> = given.by_ref().take(of.numbers()).copied().collect();
+                arguments.push(self.state(&numbers));
+            } else if !of.members.is_empty() {
+                arguments.push(argument.name.to_owned());
+            }
+        }
+        let (name, arguments) = (self.text.named(&called.name), arguments.join(", "));
+        let line = if called.returned.is_some() {
+            format!(
+                "const {} {} = {name}({arguments});",
+                self.text.real(),
+                results[0]
+            )
+        } else {
+            format!("{name}({arguments});")
+        };
+        let _ = writeln!(self.lines, "    {line}");
+        self.name_results(number, results);
+    }
+
+    fn name_results(&mut self, number: usize, results: Vec<String>) {
+        for (place, operation) in self.function.tape.operations().iter().enumerate() {
+            if let Operation::Result { call, result } = operation
+                && *call as usize == number
+                && let Some(name) = results.get(*result as usize)
+            {
+                self.names[place].clone_from(name);
+            }
+        }
+    }
+
+    /// A state of these numbers as an argument: the function's own, where they are its numbers.
+    fn state(&mut self, numbers: &[Place]) -> String {
+        let paths = self.program.structs[STATE].paths();
+        let is_own = |(place, path): (&Place, &String)| {
+            path == "time_rest" || self.name(*place) == format!("state->{path}")
+        };
+        if numbers.iter().zip(&paths).all(is_own) {
+            return "state".to_owned();
+        }
+        let room = self.fresh('x');
+        let kind = self.text.named(self.program.structs[STATE].name);
+        let _ = writeln!(self.lines, "    {kind} {room};");
+        for (&place, path) in numbers.iter().zip(&paths) {
+            let value = self.name(place);
+            let _ = writeln!(self.lines, "    {room}.{path} = {value};");
+        }
+        format!("&{room}")
+    }
+}

@@ -1,0 +1,153 @@
+//! The header of a program.
+
+use std::fmt::Write as _;
+
+use holonom::Mechanism;
+use holonom::mechanism::TracedCoordinates;
+
+use super::Text;
+use crate::export::{CONSTANTS, Export, INPUTS, PARAMETERS, SLOPE, STATE};
+use crate::number::Precision;
+use crate::program::{Function, Program, Struct};
+
+pub(super) fn header<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
+    text: &Text,
+    export: &Export<M, P, C>,
+) -> String {
+    let (n, u, program) = (&text.name, &text.upper, &export.program);
+    let mut header = format!(
+        "\
+/*
+ * The mechanism {mechanism}, written by holonom-export {version}.
+ *
+ * Functions allocate nothing, keep nothing and call math.h alone; a function may be called from
+ * several threads at once. Compile without -ffast-math. The numbers are those of Rust to the last
+ * bit with -ffp-contract=off, where both round a b + c the same number of times.
+ */
+#ifndef {u}_H
+#define {u}_H
+
+/* In CUDA and HIP all functions are there for the device as well. */
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define {u}_FUNCTION __host__ __device__
+#else
+#define {u}_FUNCTION
+#endif
+
+#ifdef __cplusplus
+extern \"C\" {{
+#endif
+
+/* The type of all numbers. The program was written for {precision}. */
+typedef {precision} {n}_real;
+
+/* What became of a call. States that it was to write are as before unless it is {u}_OK. */
+typedef enum {n}_status {{
+    {u}_OK = 0,
+    /* A step that is not positive. */
+    {u}_BAD_STEP = 1,
+    /* Equations depend on each other here: their solution has no digit left. */
+    {u}_SINGULAR = 2,
+    /* A number that is not finite. */
+    {u}_NOT_FINITE = 3
+}} {n}_status;
+
+",
+        mechanism = text.mechanism,
+        version = env!("CARGO_PKG_VERSION"),
+        precision = if P::IS_SINGLE { "float" } else { "double" },
+    );
+    for place in [PARAMETERS, INPUTS, CONSTANTS, STATE, SLOPE] {
+        declare(text, &program.structs[place], &mut header);
+    }
+    functions(text, program, &mut header);
+    header.push_str("#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
+    header
+}
+
+fn declare(text: &Text, of: &Struct, header: &mut String) {
+    if of.members.is_empty() {
+        return;
+    }
+    let name = text.named(of.name);
+    let _ = writeln!(header, "/* {} */\ntypedef struct {name} {{", of.about);
+    for member in &of.members {
+        let length = member
+            .length
+            .map_or_else(String::new, |length| format!("[{length}]"));
+        let about = if member.about.is_empty() {
+            String::new()
+        } else {
+            format!(" /* {} */", member.about)
+        };
+        let _ = writeln!(
+            header,
+            "    {} {}{length};{about}",
+            text.real(),
+            member.name
+        );
+    }
+    let _ = writeln!(header, "}} {name};\n");
+}
+
+/// What a function of the program that users call begins with.
+pub(super) fn signature(text: &Text, program: &Program, function: &Function) -> String {
+    let result = if function.returned.is_some() {
+        text.real()
+    } else {
+        "void".to_owned()
+    };
+    let name = text.named(&function.name);
+    let declared = text.declared(program, &function.arguments);
+    format!("{}_FUNCTION {result} {name}({declared})", text.upper)
+}
+
+fn functions(text: &Text, program: &Program, header: &mut String) {
+    let (n, u) = (&text.name, &text.upper);
+    let has = |place: usize| !program.structs[place].members.is_empty();
+    for (place, name) in [(PARAMETERS, "parameters"), (INPUTS, "inputs")] {
+        if has(place) {
+            let _ = writeln!(
+                header,
+                "/* The {name} of the mechanism that was exported. */\n{u}_FUNCTION void {n}_default_{name}({n}_{name} *{name});\n"
+            );
+        }
+    }
+    let constants = if has(CONSTANTS) {
+        format!("const {n}_constants *constants, ")
+    } else {
+        String::new()
+    };
+    let _ = writeln!(
+        header,
+        "/* The state in which the mechanism begins, at the time 0. */\n{u}_FUNCTION void {n}_init({n}_state *state);\n"
+    );
+    for function in program
+        .functions
+        .iter()
+        .filter(|function| function.is_public)
+    {
+        if function.name == "prepare" && !has(CONSTANTS) {
+            continue;
+        }
+        if function.name == "set_inputs" && !has(CONSTANTS) {
+            continue;
+        }
+        let _ = writeln!(
+            header,
+            "/* {} */\n{};\n",
+            function.about,
+            signature(text, program, function)
+        );
+    }
+    let _ = writeln!(
+        header,
+        "/* The rates of a state at its time. */\n{u}_FUNCTION {n}_status {n}_rates({constants}const {n}_state *state, {n}_slope *slope);\n"
+    );
+    if program.function("advance").is_some() {
+        let _ = writeln!(
+            header,
+            "/* Moves the state by one step of dt (s). */\n{u}_FUNCTION {n}_status {n}_step({constants}{n}_state *state, {n}_real dt);\n"
+        );
+    }
+}

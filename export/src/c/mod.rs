@@ -1,0 +1,193 @@
+//! Programs in C99, which are C++, CUDA and HIP as well.
+
+mod body;
+mod header;
+mod source;
+mod support;
+
+use std::fs;
+use std::path::Path;
+
+use holonom::Mechanism;
+use holonom::mechanism::TracedCoordinates;
+
+use crate::error::ExportError;
+use crate::export::{CONSTANTS, Export};
+use crate::number::Precision;
+use crate::program::{Argument, Function, Kind, Program};
+use crate::tape::Operation;
+
+/// A program in C: the text of its two files.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Source {
+    /// The name of the program, with which every name in it begins.
+    pub name: String,
+    /// The header, `name.h`.
+    pub header: String,
+    /// The functions, `name.c`.
+    pub source: String,
+}
+
+impl Source {
+    /// Writes both files into a folder, which is made where it is not there.
+    ///
+    /// # Errors
+    /// [`ExportError::File`].
+    pub fn write(&self, folder: impl AsRef<Path>) -> Result<(), ExportError> {
+        let folder = folder.as_ref();
+        fs::create_dir_all(folder)?;
+        fs::write(folder.join(format!("{}.h", self.name)), &self.header)?;
+        fs::write(folder.join(format!("{}.c", self.name)), &self.source)?;
+        Ok(())
+    }
+}
+
+impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
+    /// The program in C.
+    ///
+    /// # Errors
+    /// What was wrong with the mechanism or with one of its functions.
+    pub fn c(self) -> Result<Source, ExportError> {
+        let mut export = self.checked()?;
+        let text = Text {
+            name: export.name.clone(),
+            upper: export.name.to_uppercase(),
+            constants: used_constants(&export.program),
+            has_pivot: export.has_pivot,
+            is_single: P::IS_SINGLE,
+            mechanism: M::REPORT.name,
+        };
+        let constants = text.constants.iter().flatten().count();
+        let members = &mut export.program.structs[CONSTANTS].members;
+        match members.first_mut() {
+            Some(values) if constants > 0 => values.length = Some(constants),
+            _ => members.clear(),
+        }
+        Ok(Source {
+            header: header::header(&text, &export),
+            source: source::source(&text, &export),
+            name: export.name,
+        })
+    }
+
+    /// Writes `name.h` and `name.c` into a folder.
+    ///
+    /// # Errors
+    /// What was wrong with the mechanism or with one of its functions, and what keeps a file from
+    /// being written.
+    pub fn write_c(self, folder: impl AsRef<Path>) -> Result<(), ExportError> {
+        self.c()?.write(folder)
+    }
+}
+
+/// What is asked while a program is written.
+struct Text {
+    name: String,
+    upper: String,
+    /// The places of those constants that any function reads.
+    constants: Vec<Option<usize>>,
+    has_pivot: bool,
+    is_single: bool,
+    mechanism: &'static str,
+}
+
+impl Text {
+    /// A type or a function of the program.
+    fn named(&self, name: &str) -> String {
+        format!("{}_{name}", self.name)
+    }
+
+    fn real(&self) -> String {
+        self.named("real")
+    }
+
+    /// How each number of a struct is written behind the struct.
+    fn paths(&self, program: &Program, place: usize) -> Vec<Option<String>> {
+        if place == CONSTANTS {
+            let path = |place: usize| format!("value[{place}]");
+            return self.constants.iter().map(|place| place.map(path)).collect();
+        }
+        program.structs[place]
+            .paths()
+            .into_iter()
+            .map(Some)
+            .collect()
+    }
+
+    /// The arguments of a function as it declares them: structs without members are left out, and
+    /// one that is read and written stands there once.
+    fn declared(&self, program: &Program, arguments: &[Argument]) -> String {
+        let mut declared = Vec::new();
+        for argument in arguments {
+            let Kind::Struct(place) = argument.kind else {
+                declared.push(format!("{} {}", self.real(), argument.name));
+                continue;
+            };
+            let of = &program.structs[place];
+            if of.members.is_empty() {
+                continue;
+            }
+            let is_twice = arguments
+                .iter()
+                .filter(|other| other.name == argument.name)
+                .count()
+                > 1;
+            if is_twice && !argument.is_output {
+                continue;
+            }
+            let (kind, name) = (self.named(of.name), argument.name);
+            declared.push(if argument.is_output {
+                format!("{kind} *{name}")
+            } else {
+                format!("const {kind} *{name}")
+            });
+        }
+        if declared.is_empty() {
+            declared.push("void".to_owned());
+        }
+        declared.join(", ")
+    }
+}
+
+/// The constants that are read by any function but that which computes them all, with new places.
+fn used_constants(program: &Program) -> Vec<Option<usize>> {
+    let count = program.structs[CONSTANTS].numbers();
+    let mut used = vec![false; count];
+    for function in program
+        .functions
+        .iter()
+        .filter(|function| function.name != "prepare")
+    {
+        let Some(first) = first_constant(program, function) else {
+            continue;
+        };
+        let (needed, _) = function.tape.needed(function.given());
+        let operations = function.tape.operations().iter().zip(needed);
+        for (operation, _) in operations.filter(|(_, needed)| *needed) {
+            if let Operation::Argument(place) = operation
+                && let Some(used) = (*place as usize)
+                    .checked_sub(first)
+                    .and_then(|place| used.get_mut(place))
+            {
+                *used = true;
+            }
+        }
+    }
+    let mut next = 0;
+    let place = |used: bool| {
+        used.then(|| {
+            next += 1;
+            next - 1
+        })
+    };
+    used.into_iter().map(place).collect()
+}
+
+/// Where the constants that a function is given begin among its numbers.
+fn first_constant(program: &Program, function: &Function) -> Option<usize> {
+    let firsts = program.firsts(&function.arguments);
+    let mut arguments = function.arguments.iter().zip(firsts);
+    arguments
+        .find_map(|(argument, first)| first.filter(|_| argument.kind == Kind::Struct(CONSTANTS)))
+}

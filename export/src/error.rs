@@ -1,0 +1,88 @@
+//! Why a mechanism is not exported.
+
+use std::error::Error;
+use std::{fmt, io};
+
+use holonom::Fault;
+
+/// Why a mechanism, or a function of it, is not exported.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The mechanism or its start was refused.
+    Mechanism(Fault),
+    /// The formulation has a compliance or iterates: only [`StandardLagrange`] and [`Baumgarte`]
+    /// solve their system once, with nothing beside it.
+    ///
+    /// [`StandardLagrange`]: holonom::StandardLagrange
+    /// [`Baumgarte`]: holonom::Baumgarte
+    Formulation,
+    /// A limit of the description: a step that heeds it is taken in parts whose number depends on
+    /// the motion. [`Export::without_limits`](crate::Export::without_limits) passes them.
+    Limits {
+        /// The field of the joint.
+        joint: &'static str,
+    },
+    /// Two numbers were compared in the function of this name, so that what it computes depends on
+    /// what they are.
+    Comparison {
+        /// The function.
+        function: String,
+    },
+    /// Two functions, or two fields, of one name.
+    Name {
+        /// The name.
+        name: String,
+    },
+    /// A file that cannot be written.
+    File(io::Error),
+}
+
+impl fmt::Display for ExportError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Mechanism(fault) => fault.fmt(f),
+            Self::Formulation => f.write_str(
+                "this formulation has a compliance or iterates: export with `StandardLagrange` or `Baumgarte`",
+            ),
+            Self::Limits { joint } => write!(
+                f,
+                "joint `{joint}` has limits: a step in C does not heed them; say `.without_limits()` to pass them"
+            ),
+            Self::Comparison { function } => write!(
+                f,
+                "`{function}` compares numbers: what is exported has no branch on them; use `select` in the place of a comparison"
+            ),
+            Self::Name { name } => write!(f, "the name `{name}` is given twice"),
+            Self::File(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for ExportError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Mechanism(fault) => Some(fault),
+            Self::File(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl From<Fault> for ExportError {
+    fn from(fault: Fault) -> Self {
+        Self::Mechanism(fault)
+    }
+}
+
+impl From<holonom::ParameterError> for ExportError {
+    fn from(fault: holonom::ParameterError) -> Self {
+        Self::Mechanism(fault.into())
+    }
+}
+
+impl From<io::Error> for ExportError {
+    fn from(error: io::Error) -> Self {
+        Self::File(error)
+    }
+}

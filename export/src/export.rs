@@ -1,0 +1,645 @@
+//! A mechanism as a program: what is traced, function by function.
+
+use std::marker::PhantomData;
+
+use holonom::formulation::Formulation;
+use holonom::integrate::{OneStep, Scheme, Slopes, StepStart, System as _};
+use holonom::mechanism::{Coordinates, Stabilisation, Terms, TracedCoordinates};
+use holonom::state::{Array, MovingState, Vector as _};
+use holonom::{Mechanism, Rk4, Scalar, Stepper, View};
+
+use crate::error::ExportError;
+use crate::layout::{self, Element};
+use crate::names::identifier;
+use crate::number::{Double, Precision, Traced};
+use crate::program::{Argument, Function, Kind, Member, Output, Program, Struct};
+use crate::system::{Called, ConstantsOf, StateOf, numbers, state_of};
+use crate::tape::{Obstacle, Operation, Place, Tape, traced, with};
+use crate::values::{self, Value};
+
+/// The places of the structs of every program.
+pub(crate) const PARAMETERS: usize = 0;
+pub(crate) const INPUTS: usize = 1;
+pub(crate) const CONSTANTS: usize = 2;
+pub(crate) const STATE: usize = 3;
+pub(crate) const SLOPE: usize = 4;
+
+/// The numbers of a state in front of those that are moved: the time, and what its last digits
+/// leave over.
+pub(crate) const TIMES: usize = 2;
+
+/// The relative pivot, in units of the last digit, below which a system has no solution: as a
+/// [`Stepper`] has it.
+const VANISHED: f64 = 64.0;
+
+/// A number that depends on parameters and inputs.
+#[derive(Clone, Copy, Debug)]
+enum Constant {
+    /// On none of them.
+    Known(f64),
+    Given,
+}
+
+/// A mechanism that is written as a program: its functions, one after the other, and then in C.
+///
+/// ```
+/// use holonom::prelude::*;
+/// use holonom_export::ExportExt;
+///
+/// #[derive(Mechanism)]
+/// #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+/// struct Arm {
+///     #[input]
+///     torque: f64,
+///     #[body(mass = 1.0, inertia = [0.083, 0.001, 0.083], position = [0.0, 0.5, 0.0])]
+///     link: Body,
+///     #[joint(between = [ground, link], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+///     hinge: Revolute,
+///     #[force(between = [ground, link], axis = [1.0, 0.0, 0.0], moment = torque)]
+///     motor: TorsionalActuator,
+/// }
+///
+/// let arm = Arm::default();
+/// let source = arm.export(StandardLagrange)
+///     .step(Rk4)
+///     .reading("height", "height of the link (m)", |view| view.position(Arm::HANDLES.link).z)
+///     .c()?;
+/// assert!(source.header.contains("arm_status arm_step(const arm_constants *constants, arm_state *state, arm_real dt);"));
+/// # Ok::<(), holonom_export::ExportError>(())
+/// ```
+///
+/// `P` is the type of its numbers, `C` are the coordinates in which the equations of motion are
+/// solved.
+#[derive(Debug)]
+pub struct Export<M: Mechanism, P = Double, C = <M as Mechanism>::Coordinates> {
+    pub(crate) name: String,
+    pub(crate) program: Program,
+    pub(crate) elements: Vec<Element>,
+    pub(crate) values: [Vec<Value>; 2],
+    /// The parameters and inputs of the mechanism that was given.
+    pub(crate) defaults: Vec<f64>,
+    /// The numbers of the start.
+    pub(crate) start: Vec<f64>,
+    /// The least pivot that is accepted.
+    pub(crate) least_pivot: f64,
+    pub(crate) has_pivot: bool,
+    constants: Vec<Constant>,
+    /// The first joint with limits.
+    limited: Option<&'static str>,
+    is_passing_limits: bool,
+    fault: Option<ExportError>,
+    types: PhantomData<(M, P, C)>,
+}
+
+/// Mechanisms that are exported.
+pub trait ExportExt: Mechanism {
+    /// The mechanism as a program over `double`, in the coordinates that its attribute names. What
+    /// is wrong is said where the program is written.
+    fn export<F: Formulation<f64>>(&self, formulation: F) -> Export<Self>
+    where
+        Self::Coordinates: TracedCoordinates<Self>,
+    {
+        Export::new(self, formulation)
+    }
+}
+
+impl<M: Mechanism> ExportExt for M {}
+
+impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
+    /// The mechanism as a program, with the function that gives its rates.
+    #[must_use]
+    pub fn new<F: Formulation<f64>>(mechanism: &M, formulation: F) -> Self {
+        let mut export = Self {
+            name: snake(&identifier(M::REPORT.name)),
+            program: Program::default(),
+            elements: Vec::new(),
+            values: values::of(&M::REPORT),
+            defaults: Vec::new(),
+            start: Vec::new(),
+            least_pivot: VANISHED
+                * if P::IS_SINGLE {
+                    f64::from(f32::EPSILON)
+                } else {
+                    f64::EPSILON
+                },
+            has_pivot: C::HAS_PIVOTS,
+            constants: Vec::new(),
+            limited: None,
+            is_passing_limits: false,
+            fault: None,
+            types: PhantomData,
+        };
+        if F::ITERATED || F::Terms::COMPLIANT {
+            export.fault = Some(ExportError::Formulation);
+        }
+        if let Err(fault) = export.begin(mechanism, formulation) {
+            export.fault.get_or_insert(fault);
+        }
+        export
+    }
+
+    fn begin<F: Formulation<f64>>(
+        &mut self,
+        mechanism: &M,
+        formulation: F,
+    ) -> Result<(), ExportError> {
+        let stabilisation = formulation.stabilisation()?;
+        let parameters = mechanism.parameters::<f64>()?;
+        self.defaults = parameters.as_slice().to_vec();
+        let limits = M::limits_of(&parameters, |limits| limits.joint);
+        let limited = limits.as_ref().first();
+        self.limited = limited.and_then(|&joint| Some(M::REPORT.joints.get(joint)?.name));
+        let stepper = Stepper::new(mechanism, formulation, Rk4)?.coordinates::<C>();
+        self.start_from(&stepper.initial_state()?);
+        self.layout();
+        self.preparation(&stabilisation);
+        self.kernel::<F::Terms>();
+        Ok(())
+    }
+
+    fn start_from(&mut self, state: &C::State<f64>) {
+        self.start.clear();
+        state.for_each(|number| self.start.push(number));
+    }
+
+    /// The structs of the program.
+    fn layout(&mut self) {
+        let [pairs, rest, rates] = sizes::<M, C>();
+        self.elements = layout::of_state::<M, C>(pairs, rest, rates);
+        let members = |values: &[Value]| values.iter().map(|value| value.member.clone()).collect();
+        let mut of_state = vec![
+            Member::number("time", "time (s)"),
+            Member::number(
+                "time_rest",
+                "what the last digits of the time leave over (s)",
+            ),
+        ];
+        of_state.extend(self.elements.iter().map(|element| element.of_state.clone()));
+        let of_slope = self
+            .elements
+            .iter()
+            .filter_map(|element| element.of_slope.clone());
+        let made = |name, about: &str, members| Struct {
+            name,
+            about: about.to_owned(),
+            members,
+        };
+        self.program.structs = vec![
+            made(
+                "parameters",
+                "Parameters, in the units of the description.",
+                members(&self.values[0]),
+            ),
+            made(
+                "inputs",
+                "Inputs, in the units of the description.",
+                members(&self.values[1]),
+            ),
+            made(
+                "constants",
+                "What follows from parameters and inputs.",
+                Vec::new(),
+            ),
+            made("state", "The time, coordinates and velocities.", of_state),
+            made("slope", "The rates of a state.", of_slope.collect()),
+        ];
+    }
+
+    /// Parameters and inputs as arguments; what is neither stays the number that it is.
+    fn parameters(&self) -> M::Parameters<Traced<P>> {
+        let mut parameters = M::Parameters::<Traced<P>>::zeros();
+        let places = parameters.as_mut_slice().iter_mut();
+        for (place, &number) in places.zip(&self.defaults) {
+            *place = Traced::constant(number);
+        }
+        let given = self.values.iter().flatten().flat_map(|value| &value.places);
+        for (number, &place) in given.enumerate() {
+            if let Some(place) = parameters.as_mut_slice().get_mut(place) {
+                *place = argument(number);
+            }
+        }
+        parameters
+    }
+
+    /// The functions that compute constants, of parameters and inputs and of inputs alone.
+    fn preparation(&mut self, stabilisation: &Stabilisation<f64>) {
+        let number = Traced::<P>::constant;
+        let prepared = traced(P::IS_SINGLE, || {
+            let stabilisation = Stabilisation {
+                rate: number(stabilisation.rate),
+                position: number(stabilisation.position),
+                compliance: number(stabilisation.compliance),
+            };
+            let parameters = self.parameters();
+            let (own, coefficients) = C::prepare(&parameters, &stabilisation);
+            let absolute = M::prepare(&parameters);
+            [own.as_slice(), coefficients.as_slice(), absolute.as_slice()]
+                .concat()
+                .into_iter()
+                .map(Traced::place)
+                .collect::<Vec<_>>()
+        });
+        let (tape, places) = prepared;
+        self.constants = places
+            .iter()
+            .map(|&place| {
+                tape.constant(place)
+                    .map_or(Constant::Given, Constant::Known)
+            })
+            .collect();
+        self.program.structs[CONSTANTS].members =
+            vec![Member::array("value", "", places.len().max(1))];
+        let outputs = outputs(2, places.into_iter());
+        let given = self.constants.clone();
+        let is_given = |output: &Output| matches!(given[output.number], Constant::Given);
+        self.add(Function {
+            name: "prepare".to_owned(),
+            about: "Computes what follows from parameters and inputs.".to_owned(),
+            arguments: vec![
+                structure("parameters", PARAMETERS),
+                structure("inputs", INPUTS),
+                written("constants", CONSTANTS),
+            ],
+            outputs: outputs.filter(is_given).collect(),
+            tape,
+            returned: None,
+            is_public: true,
+        });
+        if !self.values[1].is_empty() {
+            self.taking_inputs();
+        }
+    }
+
+    fn taking_inputs(&mut self) {
+        let values = self.values.iter().flatten();
+        let count: usize = values.map(|value| value.places.len()).sum();
+        let (tape, places) = traced(P::IS_SINGLE, || {
+            let parameters = self.parameters();
+            let (own, coefficients, absolute) = self.constants_from(count);
+            let own = C::with_inputs(&parameters, own);
+            let mut taken = absolute;
+            M::take_inputs(&parameters, &mut taken);
+            [own.as_slice(), coefficients.as_slice(), taken.as_slice()].concat()
+        });
+        let is_written = |(number, place): (usize, Place)| {
+            let before = Operation::Argument(u32::try_from(count + number).unwrap_or(u32::MAX));
+            let is_given = matches!(self.constants.get(number), Some(Constant::Given));
+            (is_given && tape.at(place) != before).then_some(Output {
+                argument: 3,
+                number,
+                place,
+            })
+        };
+        let places = places.into_iter().map(Traced::place).enumerate();
+        let outputs: Vec<_> = places.filter_map(is_written).collect();
+        self.add(Function {
+            name: "set_inputs".to_owned(),
+            about: "Computes again what follows from inputs.".to_owned(),
+            arguments: vec![
+                structure("parameters", PARAMETERS),
+                structure("inputs", INPUTS),
+                // Read and written.
+                structure("constants", CONSTANTS),
+                written("constants", CONSTANTS),
+            ],
+            outputs,
+            tape,
+            returned: None,
+            is_public: true,
+        });
+    }
+
+    /// Constants, coefficients and the constants in absolute coordinates: known, or arguments from
+    /// a place on.
+    fn constants_from(
+        &self,
+        first: usize,
+    ) -> (
+        ConstantsOf<P, M, C>,
+        <C as Coordinates<M>>::Coefficients<Traced<P>>,
+        M::Constants<Traced<P>>,
+    ) {
+        let mut numbers = self
+            .constants
+            .iter()
+            .enumerate()
+            .map(|(k, constant)| match constant {
+                Constant::Known(number) => Traced::constant(*number),
+                Constant::Given => argument(first + k),
+            });
+        let mut own = ConstantsOf::<P, M, C>::zeros();
+        let mut coefficients = <C as Coordinates<M>>::Coefficients::<Traced<P>>::zeros();
+        let mut absolute = M::Constants::<Traced<P>>::zeros();
+        let slices = [
+            own.as_mut_slice(),
+            coefficients.as_mut_slice(),
+            absolute.as_mut_slice(),
+        ];
+        for place in slices.into_iter().flatten() {
+            if let Some(number) = numbers.next() {
+                *place = number;
+            }
+        }
+        (own, coefficients, absolute)
+    }
+
+    /// How many numbers a function is given before the state.
+    fn before_state(&self) -> usize {
+        self.program.structs[CONSTANTS].numbers()
+    }
+
+    /// The time, and the state as arguments behind the constants.
+    fn state(&self) -> (Traced<P>, StateOf<P, M, C>) {
+        let first = self.before_state();
+        let state = state_of::<P, M, C>(|place| Some(argument(first + TIMES + place)));
+        (argument(first), state)
+    }
+
+    /// The function that gives the rates, and the least relative pivot.
+    fn kernel<T: Terms>(&mut self) {
+        let (tape, (pivot, rates)) = traced(P::IS_SINGLE, || {
+            let (own, coefficients, _) = self.constants_from(0);
+            let (time, state) = self.state();
+            let mut rates = StateOf::<P, M, C>::zeros();
+            let mut multipliers = Array::zeros();
+            let pivot = C::rates_into::<_, T>(
+                &own,
+                &coefficients,
+                time,
+                &state,
+                &mut rates,
+                &mut multipliers,
+            );
+            (pivot.relative.place(), numbers(&rates))
+        });
+        let gives = self.gives();
+        let given = rates.into_iter().zip(&gives).filter(|(_, gives)| **gives);
+        let outputs = outputs(2, given.map(|(rate, _)| rate.place())).collect();
+        self.add(Function {
+            name: "evaluate".to_owned(),
+            about: "The rates of a state; returns the least relative pivot.".to_owned(),
+            arguments: vec![
+                structure("constants", CONSTANTS),
+                structure("state", STATE),
+                written("slope", SLOPE),
+            ],
+            outputs,
+            tape,
+            returned: self.has_pivot.then_some(pivot),
+            is_public: false,
+        });
+    }
+
+    /// Which numbers of a slope are given.
+    fn gives(&self) -> Vec<bool> {
+        let elements = self.elements.iter();
+        elements.map(|element| element.of_slope.is_some()).collect()
+    }
+
+    /// Gives the program, and with it every name in it, another name than that of the mechanism in
+    /// lower case.
+    #[must_use]
+    pub fn named(mut self, name: &str) -> Self {
+        self.name = identifier(name);
+        self
+    }
+
+    /// Begins with this state of the bodies, in the place of the described one.
+    #[must_use]
+    pub fn starting_from(mut self, mechanism: &M, bodies: &M::State<f64>) -> Self {
+        let stepper = Stepper::new(mechanism, holonom::StandardLagrange, Rk4);
+        let state = stepper.and_then(|stepper| stepper.coordinates::<C>().state_of(bodies));
+        match state {
+            Ok(state) => self.start_from(&state),
+            Err(fault) => {
+                self.fault.get_or_insert(fault.into());
+            }
+        }
+        self
+    }
+
+    /// Exports the mechanism although it has limits, which a step in C passes as if there were
+    /// none.
+    #[must_use]
+    pub fn without_limits(mut self) -> Self {
+        self.is_passing_limits = true;
+        self
+    }
+
+    /// A step of a method, as a [`Stepper`] takes it: the state is left as before where the step
+    /// leads to no finite state.
+    #[must_use]
+    pub fn step<K>(mut self, scheme: K) -> Self
+    where
+        K: for<'a> OneStep<Traced<P>, Called<'a, P, M, C>> + Scheme<Traced<P>>,
+    {
+        let Some(function) = self.program.function("evaluate") else {
+            return self;
+        };
+        let step_place = self.before_state() + TIMES + self.elements.len();
+        let (gives, constants) = (self.gives(), self.before_state());
+        let (tape, result) = traced(P::IS_SINGLE, || {
+            let (own, _, absolute) = self.constants_from(0);
+            let (time, state) = self.state();
+            let (rest, dt) = (argument(constants + 1), argument(step_place));
+            let mut system = Called::<P, M, C> {
+                function,
+                own: &own,
+                absolute: &absolute,
+                gives: &gives,
+                has_pivot: C::HAS_PIVOTS,
+                pivot: None,
+            };
+            let next = advanced(&scheme, &mut system, (time, &state), dt)?;
+            let [time, rest] = after(time, rest, dt);
+            let mut all = vec![time.place(), rest.place()];
+            all.extend(numbers(&next).into_iter().map(Traced::place));
+            Ok((system.pivot.map(Traced::place), all))
+        });
+        let (pivot, next) = match result {
+            Ok(result) => result,
+            Err(fault) => {
+                let fault: holonom::Fault = fault;
+                self.fault.get_or_insert(fault.into());
+                return self;
+            }
+        };
+        self.add(Function {
+            name: "advance".to_owned(),
+            about: "The state after a step; returns the least relative pivot on the way."
+                .to_owned(),
+            arguments: vec![
+                structure("constants", CONSTANTS),
+                structure("state", STATE),
+                Argument {
+                    name: "dt",
+                    kind: Kind::Number,
+                    is_output: false,
+                },
+                written("next", STATE),
+            ],
+            outputs: outputs(3, next.into_iter()).collect(),
+            tape,
+            returned: pivot,
+            is_public: false,
+        });
+        self
+    }
+
+    /// A function of the state that returns a number, with what it is, and its unit.
+    ///
+    /// The closure is called once with numbers that write down what is computed with them. It may
+    /// read what a [`View`] gives of such numbers, and combine it by the operations of a
+    /// [`Scalar`].
+    #[must_use]
+    pub fn reading(
+        mut self,
+        name: &str,
+        about: &str,
+        read: impl FnOnce(&View<'_, Traced<P>, M>) -> Traced<P>,
+    ) -> Self {
+        let (tape, place) = traced(P::IS_SINGLE, || {
+            let (own, _, absolute) = self.constants_from(0);
+            let (time, state) = self.state();
+            let bodies = C::bodies_by_selection(&own, &state);
+            read(&View::new(&absolute, time, &bodies)).place()
+        });
+        self.add(Function {
+            name: identifier(name),
+            about: about.to_owned(),
+            arguments: vec![structure("constants", CONSTANTS), structure("state", STATE)],
+            outputs: Vec::new(),
+            tape,
+            returned: Some(place),
+            is_public: true,
+        });
+        self
+    }
+
+    /// How many additions, multiplications and functions of numbers a function takes by its name,
+    /// such as `evaluate`, without those of the functions that it calls; `None` where there is none
+    /// of that name.
+    #[must_use]
+    pub fn operations(&self, function: &str) -> Option<usize> {
+        let place = self.program.function(function)?;
+        Some(self.program.functions[place].operations())
+    }
+
+    pub(crate) fn add(&mut self, function: Function) {
+        if function.tape.obstacle() == Some(Obstacle::Comparison) {
+            self.fault.get_or_insert(ExportError::Comparison {
+                function: function.name.clone(),
+            });
+        }
+        if self.program.function(&function.name).is_some() {
+            self.fault.get_or_insert(ExportError::Name {
+                name: function.name.clone(),
+            });
+        }
+        self.program.functions.push(function);
+    }
+
+    /// The program, if nothing is wrong with it.
+    pub(crate) fn checked(mut self) -> Result<Self, ExportError> {
+        if let Some(fault) = self.fault.take() {
+            return Err(fault);
+        }
+        let steps = self.program.function("advance").is_some();
+        match self.limited {
+            Some(joint) if steps && !self.is_passing_limits => Err(ExportError::Limits { joint }),
+            _ => Ok(self),
+        }
+    }
+}
+
+/// A step from a state, as [`OneStep::step`] takes it.
+fn advanced<P: Precision, M: Mechanism, C: TracedCoordinates<M>, K>(
+    scheme: &K,
+    system: &mut Called<'_, P, M, C>,
+    (time, state): (Traced<P>, &StateOf<P, M, C>),
+    step: Traced<P>,
+) -> Result<StateOf<P, M, C>, holonom::Fault>
+where
+    K: for<'a> OneStep<Traced<P>, Called<'a, P, M, C>>,
+{
+    let mut slope = StateOf::<P, M, C>::zeros();
+    system.stage(time, state, &mut slope)?;
+    let start = StepStart {
+        time,
+        state,
+        slope: &slope,
+    };
+    let mut stages = Scheme::<Traced<P>>::stages(scheme, &slope);
+    let mut next = scheme.advanced(&mut Slopes::new(system), start, step, &mut stages)?;
+    system.renormalise(&mut next, None);
+    Ok(next)
+}
+
+/// The time after a step, and what its last digits leave over: Knuth, *The Art of Computer
+/// Programming* 2, section 4.2.2, theorem B, as the clock of a [`Stepper`].
+fn after<S: Scalar>(time: S, rest: S, step: S) -> [S; 2] {
+    let increment = step + rest;
+    let sum = time + increment;
+    let added = sum - time;
+    [sum, (time - (sum - added)) + (increment - added)]
+}
+
+/// How many pairs, further coordinates and rates a state has.
+fn sizes<M: Mechanism, C: TracedCoordinates<M>>() -> [usize; 3] {
+    let state = C::State::<f64>::zeros();
+    let rates = state.rates_slice().len();
+    let coordinates = state.length() - rates;
+    let pairs = (0..coordinates)
+        .filter(|&k| !state.is_independent(k))
+        .count();
+    [pairs, coordinates - 2 * pairs, rates]
+}
+
+/// The number that a function is given at a place.
+pub(crate) fn argument<P: Precision>(place: usize) -> Traced<P> {
+    let place = Operation::Argument(u32::try_from(place).unwrap_or(u32::MAX));
+    Traced::at(with(|tape: &mut Tape| tape.intern(place)))
+}
+
+pub(crate) fn structure(name: &'static str, place: usize) -> Argument {
+    Argument {
+        name,
+        kind: Kind::Struct(place),
+        is_output: false,
+    }
+}
+
+pub(crate) fn written(name: &'static str, place: usize) -> Argument {
+    Argument {
+        is_output: true,
+        ..structure(name, place)
+    }
+}
+
+/// All numbers of a struct as outputs of an argument.
+pub(crate) fn outputs(
+    argument: usize,
+    places: impl Iterator<Item = Place>,
+) -> impl Iterator<Item = Output> {
+    places.enumerate().map(move |(number, place)| Output {
+        argument,
+        number,
+        place,
+    })
+}
+
+/// A name such as `FourBar` as `four_bar`.
+fn snake(name: &str) -> String {
+    let mut written = String::new();
+    let mut before = None::<char>;
+    for character in name.chars() {
+        if character.is_ascii_uppercase()
+            && before.is_some_and(|before| before.is_ascii_lowercase() || before.is_ascii_digit())
+        {
+            written.push('_');
+        }
+        written.push(character.to_ascii_lowercase());
+        before = Some(character);
+    }
+    written
+}
