@@ -32,6 +32,38 @@ pub(crate) const TIMES: usize = 2;
 /// [`Stepper`] has it.
 const VANISHED: f64 = 64.0;
 
+/// Constants, coefficients and the constants in absolute coordinates.
+type AllConstants<P, M, C> = (
+    ConstantsOf<P, M, C>,
+    <C as Coordinates<M>>::Coefficients<Traced<P>>,
+    <M as Mechanism>::Constants<Traced<P>>,
+);
+
+/// Names that every program has beside those of its functions and structs.
+const OWN: &[&str] = &[
+    "real",
+    "status",
+    "init",
+    "rates",
+    "step",
+    "evaluate",
+    "advance",
+    "default_parameters",
+    "default_inputs",
+    "fused",
+    "sqrt",
+    "fabs",
+    "least",
+    "sin",
+    "cos",
+    "exp",
+    "atan2",
+    "round",
+    "turn",
+    "state_is_finite",
+    "slope_is_finite",
+];
+
 /// A number that depends on parameters and inputs.
 #[derive(Clone, Copy, Debug)]
 enum Constant {
@@ -154,6 +186,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self.layout();
         self.preparation(&stabilisation);
         self.kernel::<F::Terms>();
+        self.of_joints();
         Ok(())
     }
 
@@ -311,14 +344,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
 
     /// Constants, coefficients and the constants in absolute coordinates: known, or arguments from
     /// a place on.
-    fn constants_from(
-        &self,
-        first: usize,
-    ) -> (
-        ConstantsOf<P, M, C>,
-        <C as Coordinates<M>>::Coefficients<Traced<P>>,
-        M::Constants<Traced<P>>,
-    ) {
+    pub(crate) fn constants_from(&self, first: usize) -> AllConstants<P, M, C> {
         let mut numbers = self
             .constants
             .iter()
@@ -344,12 +370,12 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     }
 
     /// How many numbers a function is given before the state.
-    fn before_state(&self) -> usize {
+    pub(crate) fn before_state(&self) -> usize {
         self.program.structs[CONSTANTS].numbers()
     }
 
     /// The time, and the state as arguments behind the constants.
-    fn state(&self) -> (Traced<P>, StateOf<P, M, C>) {
+    pub(crate) fn state(&self) -> (Traced<P>, StateOf<P, M, C>) {
         let first = self.before_state();
         let state = state_of::<P, M, C>(|place| Some(argument(first + TIMES + place)));
         (argument(first), state)
@@ -531,7 +557,12 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 function: function.name.clone(),
             });
         }
-        if self.program.function(&function.name).is_some() {
+        let is_struct = |of: &Struct| of.name == function.name;
+        let is_own = function.is_public && OWN.contains(&function.name.as_str());
+        if self.program.function(&function.name).is_some()
+            || self.program.structs.iter().any(is_struct)
+            || is_own
+        {
             self.fault.get_or_insert(ExportError::Name {
                 name: function.name.clone(),
             });

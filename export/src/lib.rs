@@ -7,10 +7,13 @@
 #![forbid(unsafe_code)]
 
 mod c;
+mod derivative;
 mod error;
 mod export;
 mod fold;
+mod joints;
 mod layout;
+mod linear;
 mod names;
 mod number;
 mod program;

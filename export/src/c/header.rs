@@ -6,7 +6,7 @@ use holonom::Mechanism;
 use holonom::mechanism::TracedCoordinates;
 
 use super::Text;
-use crate::export::{CONSTANTS, Export, INPUTS, PARAMETERS, SLOPE, STATE};
+use crate::export::{CONSTANTS, Export, INPUTS, PARAMETERS};
 use crate::number::Precision;
 use crate::program::{Function, Program, Struct};
 
@@ -57,8 +57,8 @@ typedef enum {n}_status {{
         version = env!("CARGO_PKG_VERSION"),
         precision = if P::IS_SINGLE { "float" } else { "double" },
     );
-    for place in [PARAMETERS, INPUTS, CONSTANTS, STATE, SLOPE] {
-        declare(text, &program.structs[place], &mut header);
+    for of in &program.structs {
+        declare(text, of, &mut header);
     }
     functions(text, program, &mut header);
     header.push_str("#ifdef __cplusplus\n}\n#endif\n\n#endif\n");

@@ -1,9 +1,7 @@
 //! What is written in C has the numbers of Rust to the last bit: steps of every mechanism of the
 //! catalogue, from thousands of states, by a compiler that nobody here wrote.
 
-mod c;
-
-use c::{Number, Program, random_state};
+use crate::compiled::{Number, Program, random_state, steps};
 use holonom::integrate::SemiImplicitEuler;
 use holonom::mechanism::{Absolute, Relative};
 use holonom::prelude::*;
@@ -23,7 +21,7 @@ fn compare<S: Number, X: Vector<S> + Copy>(
     step: impl Fn(S, X, S) -> (bool, X),
 ) {
     let name = &source.name;
-    let program = Program::compiled(source, &c::steps(source));
+    let program = Program::compiled(source, &steps(source));
     let mut random = ChaCha8Rng::seed_from_u64(15);
     let (mut given, mut expected) = (Vec::new(), Vec::new());
     for number in 0..STATES {

@@ -1,0 +1,326 @@
+//! Functions of mechanisms in joint coordinates: what joints have, and kernels in their rates.
+
+use holonom::mechanism::{
+    Freedom, HasInverse, HasMassMatrix, JointMotion, JointReport, Relative, TracedCoordinates,
+};
+use holonom::state::Array;
+use holonom::{JointCoordinates, Mechanism, Scalar};
+
+use crate::export::{CONSTANTS, Export, STATE, TIMES, argument, outputs, structure, written};
+use crate::layout::stem;
+use crate::names::{Names, identifier};
+use crate::number::{Precision, Traced};
+use crate::program::{Function, Member, Output, Struct};
+use crate::tape::traced;
+
+/// Where the numbers of a motion are in a state.
+struct Place {
+    /// Of the cosine, or of the displacement.
+    coordinate: usize,
+    rate: usize,
+}
+
+/// Positions and rates of the joints, of those motions that have one number.
+fn members(report: &JointReport) -> Vec<Member> {
+    let mut names = Names::default();
+    let motions = report.motions.iter().filter(|motion| is_single(motion));
+    let members = motions.flat_map(|motion| {
+        let (name, unit) = (stem(report, motion), motion.unit());
+        [
+            Member::number(names.unique(&name), format!("{} ({unit})", motion.joint)),
+            Member::number(
+                names.unique(&format!("{name}_rate")),
+                format!("its rate ({unit}/s)"),
+            ),
+        ]
+    });
+    members.collect()
+}
+
+/// Whether a motion is an angle or a displacement.
+fn is_single(motion: &JointMotion) -> bool {
+    matches!(
+        motion.freedom,
+        Freedom::Turn { .. } | Freedom::Slide | Freedom::Screw { .. }
+    )
+}
+
+/// `x` with the sign of the joint.
+fn signed<S: Scalar>(motion: &JointMotion, x: S) -> S {
+    if motion.is_reversed() { -x } else { x }
+}
+
+impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
+    /// The functions that read what joints have, and put it into a state.
+    pub(crate) fn of_joints(&mut self) {
+        let Some(report) = C::JOINTS else { return };
+        let members = members(report);
+        if members.is_empty() {
+            return;
+        }
+        let joints = self.program.structs.len();
+        self.program.structs.push(Struct {
+            name: "joints",
+            about: "Angles and displacements of the joints, with their signs, zero in the described configuration."
+                .to_owned(),
+            members,
+        });
+        self.reading_joints(report, joints);
+        let is_settable = |motion: &JointMotion| !matches!(motion.freedom, Freedom::Screw { .. });
+        if report.counters.is_empty() && report.motions.iter().all(is_settable) {
+            self.setting_joints(report, joints);
+        }
+    }
+
+    fn place(&self, report: &JointReport, motion: &JointMotion) -> Place {
+        let pairs = self.pairs();
+        let coordinate = match motion.freedom {
+            Freedom::Slide | Freedom::Ball => 2 * pairs + motion.coordinate,
+            Freedom::Screw { counter, .. } => 2 * pairs + counter,
+            _ => 2 * motion.coordinate,
+        };
+        let rates = self.elements.len() - rates(report);
+        Place {
+            coordinate,
+            rate: rates + motion.velocity,
+        }
+    }
+
+    fn reading_joints(&mut self, report: &JointReport, joints: usize) {
+        let motions = report.motions.iter().filter(|motion| is_single(motion));
+        let (tape, places) = traced(P::IS_SINGLE, || {
+            let state = |place: usize| argument::<P>(TIMES + place);
+            let since = |motion: &JointMotion| {
+                let place = self.place(report, motion).coordinate;
+                let (c, s) = (state(place), state(place + 1));
+                let zero = Traced::<P>::constant(motion.zero);
+                let (a, b) = (zero.cos(), zero.sin());
+                [c * a + s * b, s * a - c * b]
+            };
+            let mut numbers = Vec::new();
+            for motion in motions {
+                let place = self.place(report, motion);
+                let carrier = motion
+                    .against
+                    .and_then(|against| report.motions.get(against));
+                let own = state(place.rate);
+                let rate = match carrier {
+                    Some(carrier) => own - state(self.place(report, carrier).rate),
+                    None => own,
+                };
+                let position = if let Freedom::Turn { .. } = motion.freedom {
+                    let [mut c, mut s] = since(motion);
+                    if let Some(carrier) = carrier {
+                        let [a, b] = since(carrier);
+                        (c, s) = (c * a + s * b, s * a - c * b);
+                    }
+                    signed(motion, s.atan2(c))
+                } else {
+                    state(place.coordinate)
+                };
+                numbers.extend([position.place(), signed(motion, rate).place()]);
+            }
+            numbers
+        });
+        self.add(Function {
+            name: "get_joints".to_owned(),
+            about: "What the joints have in a state; angles from -pi to pi.".to_owned(),
+            arguments: vec![structure("state", STATE), written("joints", joints)],
+            outputs: outputs(1, places.into_iter()).collect(),
+            tape,
+            returned: None,
+            is_public: true,
+        });
+    }
+
+    fn setting_joints(&mut self, report: &JointReport, joints: usize) {
+        let (tape, written_numbers) = traced(P::IS_SINGLE, || {
+            // Of each motion: the angle since the reference configuration, and the rate, both
+            // against what carries its run.
+            let mut known: Vec<Option<[Traced<P>; 2]>> = vec![None; report.motions.len()];
+            let mut numbers = Vec::new();
+            let singles = report.motions.iter().enumerate();
+            for (k, (number, motion)) in singles.filter(|(_, motion)| is_single(motion)).enumerate()
+            {
+                let [mut position, mut rate] =
+                    [0, 1].map(|part| signed(motion, argument::<P>(2 * k + part)));
+                if let Some([before, rate_before]) =
+                    motion.against.and_then(|against| known[against])
+                {
+                    (position, rate) = (position + before, rate + rate_before);
+                }
+                known[number] = Some([position, rate]);
+                let place = self.place(report, motion);
+                if let Freedom::Turn { .. } = motion.freedom {
+                    let angle = position + Traced::constant(motion.zero);
+                    numbers.push((place.coordinate, angle.cos().place()));
+                    numbers.push((place.coordinate + 1, angle.sin().place()));
+                } else {
+                    numbers.push((place.coordinate, position.place()));
+                }
+                numbers.push((place.rate, rate.place()));
+            }
+            numbers
+        });
+        let output = |(number, place)| Output {
+            argument: 1,
+            number: TIMES + number,
+            place,
+        };
+        self.add(Function {
+            name: "set_joints".to_owned(),
+            about: "Puts what the joints have into a state; what it has of no joint stays."
+                .to_owned(),
+            arguments: vec![structure("joints", joints), written("state", STATE)],
+            outputs: written_numbers.into_iter().map(output).collect(),
+            tape,
+            returned: None,
+            is_public: true,
+        });
+    }
+
+    /// How many pairs a state has.
+    fn pairs(&self) -> usize {
+        let elements = self.elements.iter();
+        elements
+            .filter(|element| element.of_slope.is_none())
+            .count()
+    }
+}
+
+/// How many rates there are.
+fn rates(report: &JointReport) -> usize {
+    let count = |motion: &JointMotion| {
+        if motion.freedom == Freedom::Ball {
+            3
+        } else {
+            1
+        }
+    };
+    report.motions.iter().map(count).sum()
+}
+
+/// A member for each rate of the joints.
+fn by_rates(report: &JointReport, about: &str) -> Vec<Member> {
+    let mut names = Names::default();
+    let members = report.motions.iter().flat_map(|motion| {
+        let name = stem(report, motion);
+        if motion.freedom == Freedom::Ball {
+            ["x", "y", "z"]
+                .map(|axis| format!("{name}_{axis}"))
+                .to_vec()
+        } else {
+            vec![name]
+        }
+    });
+    let members = members.map(|name| Member::number(names.unique(&identifier(&name)), about));
+    members.collect()
+}
+
+impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
+    /// The place of a struct with a number for each rate, which is made where it is not there.
+    fn structure_by_rates(&mut self, name: &'static str, about: &str, of_each: &str) -> usize {
+        let known = self
+            .program
+            .structs
+            .iter()
+            .position(|known| known.name == name);
+        known.unwrap_or_else(|| {
+            self.program.structs.push(Struct {
+                name,
+                about: about.to_owned(),
+                members: by_rates(&M::JOINT_REPORT, of_each),
+            });
+            self.program.structs.len() - 1
+        })
+    }
+
+    /// Inverse dynamics: the efforts along the joints (N m, N) that have to act beside the described
+    /// forces for these accelerations. In a mechanism with loops, those of its tree alone.
+    #[must_use]
+    pub fn inverse_dynamics(mut self) -> Self
+    where
+        M: HasInverse,
+    {
+        let about = "Accelerations of the rates of the joints.";
+        let given = self.structure_by_rates("accelerations", about, "rad/s^2 or m/s^2");
+        let about = "Efforts along the joints.";
+        let gives = self.structure_by_rates("efforts", about, "N m or N");
+        let (tape, places) = traced(P::IS_SINGLE, || {
+            let (own, ..) = self.constants_from(0);
+            let (time, state) = self.state();
+            let first = self.before_state() + TIMES + self.elements.len();
+            let mut accelerations = M::JointVelocities::<Traced<P>>::zeros();
+            let places = accelerations.as_mut_slice().iter_mut();
+            places
+                .enumerate()
+                .for_each(|(k, place)| *place = argument(first + k));
+            let efforts = M::inverse_dynamics(&own, time, &state, &accelerations);
+            efforts
+                .as_slice()
+                .iter()
+                .map(|effort| effort.place())
+                .collect::<Vec<_>>()
+        });
+        self.add(Function {
+            name: "inverse_dynamics".to_owned(),
+            about: "The efforts that have to act beside the described forces.".to_owned(),
+            arguments: vec![
+                structure("constants", CONSTANTS),
+                structure("state", STATE),
+                structure("accelerations", given),
+                written("efforts", gives),
+            ],
+            outputs: outputs(3, places.into_iter()).collect(),
+            tape,
+            returned: None,
+            is_public: true,
+        });
+        self
+    }
+
+    /// The mass matrix in the rates of the joints, row by row; in a mechanism with loops, that of
+    /// its tree.
+    #[must_use]
+    pub fn mass_matrix(mut self) -> Self
+    where
+        M: HasMassMatrix,
+    {
+        let count = rates(&M::JOINT_REPORT);
+        let matrix = self.program.structs.len();
+        self.program.structs.push(Struct {
+            name: "mass",
+            about: "The mass matrix in the rates of the joints, row by row.".to_owned(),
+            members: vec![Member::array("value", "", count * count)],
+        });
+        let (tape, triangle) = traced(P::IS_SINGLE, || {
+            let (own, ..) = self.constants_from(0);
+            let (time, state) = self.state();
+            let triangle = M::mass_matrix(&own, time, &state);
+            triangle
+                .as_slice()
+                .iter()
+                .map(|entry| entry.place())
+                .collect::<Vec<_>>()
+        });
+        let entry = |k: usize| {
+            let (row, column) = (k / count, k % count);
+            let (below, above) = (row.max(column), row.min(column));
+            triangle.get(below * (below + 1) / 2 + above).copied()
+        };
+        self.add(Function {
+            name: "mass_matrix".to_owned(),
+            about: "The mass matrix in a state.".to_owned(),
+            arguments: vec![
+                structure("constants", CONSTANTS),
+                structure("state", STATE),
+                written("mass", matrix),
+            ],
+            outputs: outputs(2, (0..count * count).filter_map(entry)).collect(),
+            tape,
+            returned: None,
+            is_public: true,
+        });
+        self
+    }
+}

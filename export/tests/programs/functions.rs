@@ -1,0 +1,282 @@
+//! Functions beside steps: what joints have, inverse dynamics, mass matrices, readings and
+//! derivatives, by C and by Rust.
+
+use crate::compiled::{Program, random_state};
+use holonom::mechanism::{HasInverse as _, HasMassMatrix as _, Relative};
+use holonom::prelude::*;
+use holonom::state::Vector;
+use holonom_export::{Double, Export, ExportError, ExportExt as _, Source};
+use holonom_models::{FourBar, Ur5};
+use rand::SeedableRng as _;
+use rand_chacha::ChaCha8Rng;
+
+/// A program that reads a state and another variable, calls, and writes a variable.
+fn program(source: &Source, declared: &str, read: &str, called: &str, written: &str) -> Program {
+    let n = &source.name;
+    let read = if read.is_empty() {
+        String::new()
+    } else {
+        format!(" && fread(&{read}, sizeof {read}, 1, stdin) == 1")
+    };
+    let main = format!(
+        "\
+#include \"{n}.h\"
+#include <stdio.h>
+
+int main(void)
+{{
+    {n}_state state;
+    {declared}
+    while (fread(&state, sizeof state, 1, stdin) == 1{read}) {{
+        {called}
+        fwrite(&{written}, sizeof {written}, 1, stdout);
+    }}
+    return 0;
+}}
+"
+    );
+    Program::compiled(source, &main)
+}
+
+/// The numbers of a state behind the time 0.
+fn given<X: Vector<f64>>(state: &X) -> Vec<f64> {
+    let mut given = vec![0.0, 0.0];
+    state.for_each(|number| given.push(number));
+    given
+}
+
+fn near(a: f64, b: f64, tolerance: f64, what: &str) {
+    let size = 1.0 + a.abs().max(b.abs());
+    let is_near = (a - b).abs() < tolerance * size;
+    assert!(is_near, "{what}: {a} for {b}");
+}
+
+type Ur5State = <Ur5 as JointCoordinates>::JointState<f64>;
+
+/// The described state of a UR5, and a hundred at random.
+fn states() -> Vec<Ur5State> {
+    let stepper = Ur5::default().stepper(StandardLagrange, Rk4);
+    let stepper = stepper.expect("described").joint_coordinates();
+    let start = stepper.initial_state().expect("described");
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let random = (0..100).map(|_| random_state(&start, &mut random));
+    random.chain([start]).collect()
+}
+
+fn ur5(name: &str) -> Export<Ur5, Double, Relative> {
+    Export::new(&Ur5::default(), StandardLagrange).named(name)
+}
+
+#[test]
+fn joints_are_what_the_report_says_and_can_be_put_back() {
+    let source = ur5("joints").c().expect("exported");
+    let program = program(
+        &source,
+        "joints_joints both[2];",
+        "",
+        "joints_get_joints(&state, &both[0]); joints_set_joints(&both[0], &state); joints_get_joints(&state, &both[1]);",
+        "both",
+    );
+    for state in states() {
+        let results = program.run(&given(&state));
+        let (joints, again) = results.split_at(results.len() / 2);
+        for motion in 0..6 {
+            let report = &Ur5::JOINT_REPORT;
+            let position = report.coordinate(motion, &state).expect("a turn");
+            let rate = report.rate(motion, &state).expect("a turn");
+            assert_eq!(
+                joints[2 * motion..][..2],
+                [position, rate],
+                "motion {motion}"
+            );
+            near(again[2 * motion], position, 1e-14, "angle put back");
+            near(again[2 * motion + 1], rate, 1e-14, "rate put back");
+        }
+    }
+}
+
+#[test]
+fn kernels_in_the_rates_of_joints_are_those_of_rust() {
+    let source = ur5("kernels").inverse_dynamics().mass_matrix().c();
+    let source = source.expect("exported");
+    let program = program(
+        &source,
+        "kernels_constants constants; kernels_inputs inputs; kernels_accelerations a; struct { kernels_efforts e; kernels_mass m; } all;",
+        "a",
+        "kernels_default_inputs(&inputs); kernels_prepare(&inputs, &constants); kernels_inverse_dynamics(&constants, &state, &a, &all.e); kernels_mass_matrix(&constants, &state, &all.m);",
+        "all",
+    );
+    let parameters = Ur5::default().parameters::<f64>().expect("described");
+    let constants = Ur5::prepare_joints(&parameters);
+    for state in states() {
+        let accelerations = [0.3, -1.0, 2.0, 0.5, -0.7, 3.0];
+        let results = program.run(&[given(&state), accelerations.to_vec()].concat());
+        let efforts = Ur5::inverse_dynamics(&constants, 0.0, &state, &accelerations);
+        assert_eq!(results[..6], efforts, "efforts");
+        let triangle = Ur5::mass_matrix(&constants, 0.0, &state);
+        let mut triangle = triangle.as_slice().iter();
+        for row in 0..6 {
+            for column in 0..=row {
+                let entry = triangle.next().expect("an entry");
+                assert_eq!(results[6 + 6 * row + column], *entry);
+                assert_eq!(results[6 + 6 * column + row], *entry);
+            }
+        }
+    }
+}
+
+#[test]
+fn readings_are_those_of_a_view() {
+    let handles = FourBar::HANDLES;
+    let export = Export::<FourBar, Double, Relative>::new(&FourBar::default(), StandardLagrange);
+    let source = export
+        .named("readings")
+        .reading("height", "m", |view| view.position(handles.coupler).y)
+        .reading("energy", "J", |view| {
+            view.kinetic_energy() + view.potential_energy()
+        })
+        .c()
+        .expect("exported");
+    let program = program(
+        &source,
+        "double all[2];",
+        "",
+        "all[0] = readings_height(&state); all[1] = readings_energy(&state);",
+        "all",
+    );
+    let four_bar = FourBar::default();
+    let stepper = four_bar.stepper(StandardLagrange, Rk4).expect("described");
+    let stepper = stepper.joint_coordinates();
+    let start = stepper.initial_state().expect("described");
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    for _ in 0..100 {
+        let state = random_state(&start, &mut random);
+        let bodies = stepper.bodies(&state);
+        let view = stepper.view(&bodies);
+        let results = program.run(&given(&state));
+        near(
+            results[0],
+            view.position(handles.coupler).y,
+            1e-14,
+            "height",
+        );
+        let energy = view.kinetic_energy() + view.potential_energy();
+        near(results[1], energy, 1e-13, "energy");
+    }
+}
+
+/// Columns of derivatives against central differences of the rates, both in C.
+fn differences<X: Vector<f64> + Copy>(source: &Source, start: &X, given_before: &str) {
+    let n = &source.name;
+    let constants = if source.header.contains(&format!("}} {n}_constants;")) {
+        format!("{n}_constants constants; {n}_inputs inputs;")
+    } else {
+        String::new()
+    };
+    let (prepare, handed) = if constants.is_empty() {
+        (String::new(), "")
+    } else {
+        (
+            format!("{n}_default_inputs(&inputs); {n}_prepare(&inputs, &constants);"),
+            "&constants, ",
+        )
+    };
+    let program = program(
+        source,
+        &format!("{constants} struct {{ {n}_slope k; {n}_jacobian j; }} all;"),
+        "",
+        &format!(
+            "{prepare} {n}_rates({handed}&state, &all.k); {n}_derivatives({given_before}&state, &all.j);"
+        ),
+        "all",
+    );
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    for _ in 0..20 {
+        let state = random_state(start, &mut random);
+        let independent: Vec<usize> = (0..start.length())
+            .filter(|&k| start.is_independent(k))
+            .collect();
+        let rows = independent.len();
+        let results = program.run(&given(&state));
+        let columns = (results.len() - rows) / rows;
+        for (column, &element) in independent.iter().enumerate() {
+            let beside = |h: f64| {
+                let mut moved = state;
+                if element + 1 < state.length() && !state.is_independent(element + 1) {
+                    let (c, s) = (state.element(element), state.element(element + 1));
+                    moved.set_element(element, c * h.cos() - s * h.sin());
+                    moved.set_element(element + 1, s * h.cos() + c * h.sin());
+                } else {
+                    moved.set_element(element, state.element(element) + h);
+                }
+                program.run(&given(&moved))
+            };
+            let (h, ahead, behind) = (1e-5, beside(1e-5), beside(-1e-5));
+            let largest = ahead[..rows]
+                .iter()
+                .fold(1.0_f64, |most, x| most.max(x.abs()));
+            for row in 0..rows {
+                let difference = (ahead[row] - behind[row]) / (2.0 * h);
+                let derivative = results[rows + row * columns + column];
+                let error = (difference - derivative).abs();
+                let scale = largest.max(derivative.abs());
+                assert!(
+                    error < 1e-7 * scale * scale,
+                    "{n}, row {row}, column {column}: {derivative} for {difference}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn derivatives_are_those_of_differences() {
+    let export = ur5("derived").derivatives();
+    let operations = export.operations("derivatives").expect("it is there");
+    // As many as the prototype took for the accelerations alone, and few for what is linear.
+    assert!(operations < 2200, "{operations} operations");
+    let source = export.c().expect("exported");
+    let [start, ..] = states()[..] else {
+        panic!("no states")
+    };
+    differences(&source, &start, "&inputs, ");
+    let export = Export::<FourBar, Double, Relative>::new(&FourBar::default(), StandardLagrange);
+    let source = export
+        .named("derived_bars")
+        .derivatives()
+        .c()
+        .expect("exported");
+    let stepper = FourBar::default()
+        .stepper(StandardLagrange, Rk4)
+        .expect("described");
+    let start = stepper
+        .joint_coordinates()
+        .initial_state()
+        .expect("described");
+    differences(&source, &start, "");
+}
+
+#[test]
+fn what_cannot_be_exported_is_named() {
+    let bars = FourBar::default();
+    let refused = bars.export(Penalty::default()).c();
+    assert!(
+        matches!(refused, Err(ExportError::Formulation)),
+        "{refused:?}"
+    );
+    let compared = bars.export(StandardLagrange).reading("side", "", |view| {
+        let height = view.position(FourBar::HANDLES.coupler).y;
+        if height == holonom::Scalar::zero() {
+            height
+        } else {
+            -height
+        }
+    });
+    let refused = compared.c().expect_err("it compares").to_string();
+    assert!(refused.contains("`side` compares numbers"), "{refused}");
+    let twice = bars
+        .export(StandardLagrange)
+        .reading("state", "", |view| view.time());
+    let refused = twice.c().expect_err("the name is taken").to_string();
+    assert_eq!(refused, "the name `state` is given twice");
+}

@@ -1,0 +1,5 @@
+//! Programs in C, compiled and run: by a compiler that nobody here wrote, against Rust.
+
+mod bits;
+mod compiled;
+mod functions;
