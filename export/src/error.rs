@@ -23,6 +23,11 @@ pub enum ExportError {
         /// The field of the joint.
         joint: &'static str,
     },
+    /// A kernel that the mechanism was not asked for.
+    Kernel {
+        /// Its word in `kernels = [..]`.
+        kernel: &'static str,
+    },
     /// Two numbers were compared in the function of this name, so that what it computes depends on
     /// what they are.
     Comparison {
@@ -48,6 +53,10 @@ impl fmt::Display for ExportError {
             Self::Limits { joint } => write!(
                 f,
                 "joint `{joint}` has limits: a step in C does not heed them; say `.without_limits()` to pass them"
+            ),
+            Self::Kernel { kernel } => write!(
+                f,
+                "the mechanism has no kernel `{kernel}`: write `kernels = [{kernel}]` above the struct, beside the kernels that are there"
             ),
             Self::Comparison { function } => write!(
                 f,

@@ -119,6 +119,8 @@ pub struct Export<M: Mechanism, P = Double, C = <M as Mechanism>::Coordinates> {
     /// The first joint with limits.
     limited: Option<&'static str>,
     is_passing_limits: bool,
+    /// Whether what one side of a choice alone needs stands behind a branch.
+    pub(crate) has_branches: bool,
     fault: Option<ExportError>,
     types: PhantomData<(M, P, C)>,
 }
@@ -158,6 +160,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             constants: Vec::new(),
             limited: None,
             is_passing_limits: false,
+            has_branches: true,
             fault: None,
             types: PhantomData,
         };
@@ -452,6 +455,15 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self
     }
 
+    /// Computes both sides of every choice, and takes one: a step takes the same time whatever the
+    /// numbers are. Else what only one side needs is computed where it is taken. The numbers are
+    /// the same.
+    #[must_use]
+    pub fn without_branches(mut self) -> Self {
+        self.has_branches = false;
+        self
+    }
+
     /// A step of a method, as a [`Stepper`] takes it: the state is left as before where the step
     /// leads to no finite state.
     #[must_use]
@@ -568,6 +580,12 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             });
         }
         self.program.functions.push(function);
+    }
+
+    /// The program, with what is wrong with it.
+    pub(crate) fn refused(mut self, fault: ExportError) -> Self {
+        self.fault.get_or_insert(fault);
+        self
     }
 
     /// The program, if nothing is wrong with it.

@@ -6,6 +6,7 @@ use holonom::mechanism::{
 use holonom::state::Array;
 use holonom::{JointCoordinates, Mechanism, Scalar};
 
+use crate::error::ExportError;
 use crate::export::{CONSTANTS, Export, STATE, TIMES, argument, outputs, structure, written};
 use crate::layout::stem;
 use crate::names::{Names, identifier};
@@ -317,6 +318,66 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
                 written("mass", matrix),
             ],
             outputs: outputs(2, (0..count * count).filter_map(entry)).collect(),
+            tape,
+            returned: None,
+            is_public: true,
+        });
+        self
+    }
+
+    /// Derivatives of the accelerations of the joints' rates: by the positions of the joints, by
+    /// their rates, by efforts along them and by inputs, of a mechanism with
+    /// `kernels = [derivatives]`. It has fewer operations than [`Export::derivatives`], whose rows
+    /// and columns are the numbers of a state.
+    ///
+    /// In a mechanism with loops, positions and rates are taken as if they could change one by one.
+    #[must_use]
+    pub fn joint_derivatives(mut self) -> Self {
+        let Some(inputs) = M::DERIVED_BY else {
+            return self.refused(ExportError::Kernel {
+                kernel: "derivatives",
+            });
+        };
+        let rates = by_rates(&M::JOINT_REPORT, "");
+        let (rows, columns) = (rates.len(), 3 * rates.len() + inputs.len());
+        let (tape, numbers) = traced(P::IS_SINGLE, || {
+            let (own, ..) = self.constants_from(0);
+            let (time, state) = self.state();
+            let numbers = M::derivatives(&own, time, &state);
+            numbers
+                .as_slice()
+                .iter()
+                .map(|number| number.place())
+                .collect::<Vec<_>>()
+        });
+        let entry = |k: usize| {
+            let (row, column) = (k / columns, k % columns);
+            numbers.get(rows * (1 + column) + row).copied()
+        };
+        let names: Vec<&str> = rates.iter().map(|rate| rate.name.as_str()).collect();
+        let inputs = inputs
+            .iter()
+            .filter_map(|&input| Some(M::REPORT.values.get(input)?.name));
+        let about = format!(
+            "Derivatives of the accelerations of {}, a row each: by the positions of these, by their rates, by efforts along them, and by the inputs {}.",
+            names.join(", "),
+            inputs.collect::<Vec<_>>().join(", ")
+        );
+        let place = self.program.structs.len();
+        self.program.structs.push(Struct {
+            name: "joint_jacobian",
+            about,
+            members: vec![Member::array("value", "row by row", rows * columns)],
+        });
+        self.add(Function {
+            name: "joint_derivatives".to_owned(),
+            about: "Derivatives of the accelerations of the joints in a state.".to_owned(),
+            arguments: vec![
+                structure("constants", CONSTANTS),
+                structure("state", STATE),
+                written("jacobian", place),
+            ],
+            outputs: outputs(2, (0..rows * columns).filter_map(entry)).collect(),
             tape,
             returned: None,
             is_public: true,

@@ -1,9 +1,10 @@
 //! The body of a function in C.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write as _;
 
 use super::Text;
+use super::branches::{Branch, branches};
 use super::support::Support;
 use crate::export::STATE;
 use crate::program::{Function, Kind, Output, Program};
@@ -20,6 +21,10 @@ pub(super) struct Body<'a> {
     names: Vec<String>,
     needed: Vec<bool>,
     called: Vec<bool>,
+    branches: HashMap<Place, Branch>,
+    /// What is written behind a branch.
+    within: Vec<bool>,
+    indent: &'static str,
     lines: String,
     next: usize,
     support: &'a mut BTreeSet<Support>,
@@ -59,7 +64,13 @@ pub(super) fn body(
     };
     let outputs = function.outputs.iter().filter(is_written);
     let outputs = outputs.map(|output| output.place).chain(function.returned);
-    let (needed, called) = function.tape.needed(outputs);
+    let outputs: Vec<Place> = outputs.collect();
+    let (needed, called) = function.tape.needed(outputs.iter().copied());
+    let (branches, within) = if text.has_branches {
+        branches(&function.tape, &needed, outputs)
+    } else {
+        (HashMap::new(), vec![false; needed.len()])
+    };
     let mut given = Vec::new();
     for argument in function
         .arguments
@@ -83,6 +94,9 @@ pub(super) fn body(
         names: vec![String::new(); needed.len()],
         needed,
         called,
+        branches,
+        within,
+        indent: "    ",
         lines: String::new(),
         next: 1,
         support,
@@ -101,7 +115,10 @@ impl Body<'_> {
                     self.call(number, call);
                 }
             }
-            if self.needed[place] && self.names[place].is_empty() {
+            let at = Place::try_from(place).unwrap_or(Place::MAX);
+            if let Some(branch) = self.branches.remove(&at) {
+                self.branch(&branch);
+            } else if self.needed[place] && !self.within[place] && self.names[place].is_empty() {
                 self.statement(place, *operation);
             }
         }
@@ -174,12 +191,44 @@ impl Body<'_> {
             }
         };
         let name = self.fresh('t');
-        let _ = writeln!(
-            self.lines,
-            "    const {} {name} = {expression};",
-            self.text.real()
-        );
+        let (indent, real) = (self.indent, self.text.real());
+        let _ = writeln!(self.lines, "{indent}const {real} {name} = {expression};");
         self.names[place] = name;
+    }
+
+    /// Choices by one comparison, with what either side needs behind it.
+    fn branch(&mut self, branch: &Branch) {
+        let function = self.function;
+        let selects = branch.choices.iter();
+        let operands = selects.filter_map(|&choice| match function.tape.at(choice) {
+            Operation::Select(operands) => Some(operands),
+            _ => None,
+        });
+        let operands: Vec<[Place; 4]> = operands.collect();
+        let Some([a, b, ..]) = operands.first().map(|of| of.map(|of| self.operand(of))) else {
+            return;
+        };
+        let names: Vec<String> = operands.iter().map(|_| self.fresh('t')).collect();
+        let _ = writeln!(self.lines, "    {} {};", self.text.real(), names.join(", "));
+        let heads = [format!("    if ({a} < {b}) {{"), "    } else {".to_owned()];
+        for (side, head) in heads.into_iter().enumerate() {
+            let _ = writeln!(self.lines, "{head}");
+            self.indent = "        ";
+            for &place in &branch.sides[side] {
+                if self.names[place as usize].is_empty() {
+                    self.statement(place as usize, function.tape.at(place));
+                }
+            }
+            for (name, operands) in names.iter().zip(&operands) {
+                let value = self.name(operands[2 + side]);
+                let _ = writeln!(self.lines, "        {name} = {value};");
+            }
+            self.indent = "    ";
+        }
+        self.lines.push_str("    }\n");
+        for (&choice, name) in branch.choices.iter().zip(names) {
+            self.names[choice as usize] = name;
+        }
     }
 
     fn fresh(&mut self, letter: char) -> String {
@@ -214,24 +263,51 @@ impl Body<'_> {
         format!("{a} {sign} {b}")
     }
 
-    /// Sine and versine at once.
+    /// Sines and versines of this angle, and of all others that are known here.
     fn turn(&mut self, of: Place) {
-        self.support.insert(Support::Turn);
-        let (sine, versine) = (self.fresh('s'), self.fresh('v'));
-        let (real, turn, angle) = (self.text.real(), self.text.named("turn"), self.name(of));
-        let _ = writeln!(self.lines, "    {real} {sine}, {versine};");
-        let _ = writeln!(self.lines, "    {turn}({angle}, &{sine}, &{versine});");
-        let operations = self.function.tape.operations().iter().enumerate();
+        self.support.insert(Support::Turns);
+        let function = self.function;
+        let angle = |operation: &Operation| match operation {
+            Operation::Unary(Unary::TurnSine | Unary::TurnVersine, angle) => Some(*angle),
+            _ => None,
+        };
+        let mut angles: Vec<Place> = vec![of];
+        let operations = function.tape.operations().iter().enumerate();
         for (place, operation) in operations {
-            match operation {
-                Operation::Unary(Unary::TurnSine, other) if *other == of => {
-                    self.names[place].clone_from(&sine);
-                }
-                Operation::Unary(Unary::TurnVersine, other) if *other == of => {
-                    self.names[place].clone_from(&versine);
-                }
-                _ => {}
+            let is_open = self.needed[place] && !self.within[place] && self.indent.len() == 4;
+            if is_open
+                && self.names[place].is_empty()
+                && let Some(angle) = angle(operation)
+                && !self.names[angle as usize].is_empty()
+                && !angles.contains(&angle)
+            {
+                angles.push(angle);
             }
+        }
+        let (sine, versine) = (self.fresh('s'), self.fresh('v'));
+        let names: Vec<String> = angles.iter().map(|&angle| self.name(angle)).collect();
+        let (indent, real, count) = (self.indent, self.text.real(), angles.len());
+        let list = self.fresh('a');
+        let _ = writeln!(
+            self.lines,
+            "{indent}{real} {list}[{count}], {sine}[{count}], {versine}[{count}];"
+        );
+        for (k, name) in names.iter().enumerate() {
+            let _ = writeln!(self.lines, "{indent}{list}[{k}] = {name};");
+        }
+        let turns = self.text.named("turns");
+        let _ = writeln!(
+            self.lines,
+            "{indent}{turns}({count}, {list}, {sine}, {versine});"
+        );
+        for (place, operation) in function.tape.operations().iter().enumerate() {
+            let found = angle(operation).and_then(|of| angles.iter().position(|&a| a == of));
+            let Some(k) = found else { continue };
+            let list = match operation {
+                Operation::Unary(Unary::TurnSine, _) => &sine,
+                _ => &versine,
+            };
+            self.names[place] = format!("{list}[{k}]");
         }
     }
 

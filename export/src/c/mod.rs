@@ -1,6 +1,7 @@
 //! Programs in C99, which are C++, CUDA and HIP as well.
 
 mod body;
+mod branches;
 mod header;
 mod source;
 mod support;
@@ -56,6 +57,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             constants: used_constants(&export.program),
             has_pivot: export.has_pivot,
             is_single: P::IS_SINGLE,
+            has_branches: export.has_branches,
             mechanism: M::REPORT.name,
         };
         let constants = text.constants.iter().flatten().count();
@@ -89,6 +91,7 @@ struct Text {
     constants: Vec<Option<usize>>,
     has_pivot: bool,
     is_single: bool,
+    has_branches: bool,
     mechanism: &'static str,
 }
 

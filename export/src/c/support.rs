@@ -18,6 +18,7 @@ pub(super) enum Support {
     Angle,
     Rounding,
     Turn,
+    Turns,
 }
 
 impl Support {
@@ -33,6 +34,7 @@ impl Support {
             Self::Angle => "atan2",
             Self::Rounding => "round",
             Self::Turn => "turn",
+            Self::Turns => "turns",
         }
     }
 
@@ -40,6 +42,13 @@ impl Support {
     pub(super) fn calls(self) -> &'static [Self] {
         match self {
             Self::Turn => &[Self::Fused, Self::Magnitude, Self::Sine, Self::Cosine],
+            Self::Turns => &[
+                Self::Fused,
+                Self::Magnitude,
+                Self::Sine,
+                Self::Cosine,
+                Self::Turn,
+            ],
             _ => &[],
         }
     }
@@ -86,6 +95,7 @@ static {u}_FUNCTION {real} {n}_atan2({real} y, {real} x)
 "
             ),
             Self::Turn => turn(text),
+            Self::Turns => turns(text),
             _ => of_math(self.name()),
         }
     }
@@ -132,7 +142,18 @@ fn turn(text: &Text) -> String {
     let per_quarter = c(std::f64::consts::FRAC_2_PI);
     format!(
         "\
-/* Sine and versine, 1 - cos, of an angle (rad). */
+/* Sine and versine, 1 - cos, of an angle (rad) below 0.9. */
+static {u}_FUNCTION void {n}_small_turn({real} x, {real} *sine, {real} *versine)
+{{
+    const {real} square = x * x;
+    const {real} fourth = square * square;
+    *sine = {n}_fused(
+        {of_sine}, square * x, x);
+    *versine = {n}_fused(
+        {of_versine}, fourth, {half} * square);
+}}
+
+/* The same of any angle. */
 static {u}_FUNCTION void {n}_turn({real} angle, {real} *sine, {real} *versine)
 {{
     const {real} sum = angle * {per_quarter} + {whole};
@@ -142,13 +163,9 @@ static {u}_FUNCTION void {n}_turn({real} angle, {real} *sine, {real} *versine)
     const {real} near = rest - quarters * {second};
     const {real} lost = (rest - near) - quarters * {second} - quarters * {third};
     const {real} x = is_small ? angle : near + lost;
-    const {real} square = x * x;
-    const {real} fourth = square * square;
-    const {real} s = {n}_fused(
-        {of_sine}, square * x, x);
-    const {real} v = {n}_fused(
-        {of_versine}, fourth, {half} * square);
+    {real} s, v;
     int place;
+    {n}_small_turn(x, &s, &v);
     if (!({n}_fabs(angle) < {some})) {{
         /* By functions of half the angle: what is lost of quarters is too much. */
         const {real} h = {n}_sin({half} * angle);
@@ -164,5 +181,40 @@ static {u}_FUNCTION void {n}_turn({real} angle, {real} *sine, {real} *versine)
 }}
 ",
         zero = c(0.0),
+    )
+}
+
+/// Turns by several angles: the same numbers, whether all are small or not.
+fn turns(text: &Text) -> String {
+    let (n, u, real) = (&text.name, &text.upper, text.real());
+    let shortcut = if text.has_branches {
+        format!(
+            "    int is_small = 1;
+    for (k = 0; k < count; k++) {{
+        is_small &= {n}_fabs(angles[k]) < {small};
+    }}
+    if (is_small) {{
+        for (k = 0; k < count; k++) {{
+            {n}_small_turn(angles[k], &sines[k], &versines[k]);
+        }}
+        return;
+    }}
+",
+            small = text.number(0.9)
+        )
+    } else {
+        String::new()
+    };
+    format!(
+        "\
+/* Sines and versines of some angles (rad): the same numbers, whether all are small or not. */
+static {u}_FUNCTION void {n}_turns(int count, const {real} *angles, {real} *sines, {real} *versines)
+{{
+    int k;
+{shortcut}    for (k = 0; k < count; k++) {{
+        {n}_turn(angles[k], &sines[k], &versines[k]);
+    }}
+}}
+"
     )
 }
