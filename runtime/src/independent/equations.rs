@@ -80,8 +80,8 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
         rows
     }
 
-    /// The same where these are not all rates in their order. Not inlined: inlined, it shares a copy
-    /// of the matrix with what needs none, 5 of 20 ns of a UR5.
+    /// The same where these are not all rates in their order. Not inlined: inlined, it shares a
+    /// copy of the matrix with what needs none, 5 of 20 ns of a UR5.
     #[inline(never)]
     fn mass_of_chosen(
         &self,
@@ -117,8 +117,8 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
 
     /// The efforts of these accelerations.
     ///
-    /// Always inlined: else the compiler does so or not by what stands beside it, and a further copy
-    /// of numbers just written takes those of a UR5 from 31 to 54 ns.
+    /// Always inlined: else the compiler does so or not by what stands beside it, and a further
+    /// copy of numbers just written takes those of a UR5 from 31 to 54 ns.
     #[inline(always)]
     pub(super) fn inverse_with(
         &self,

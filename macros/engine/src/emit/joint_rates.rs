@@ -214,8 +214,8 @@ impl Writer<'_, JointKernels> {
         let function = if asked == Asked::Mass {
             let telling = kernel.telling().into_iter().map(|place| &outputs[place]);
             let entries = local("entries");
-            // Inlined into what gives the entries a place: else that is filled with zeros first, 7 of
-            // 20 ns of a UR5.
+            // Inlined into what gives the entries a place: else that is filled with zeros first,
+            // 7 of 20 ns of a UR5.
             quote! {
                 #[inline(always)]
                 fn mass_matrix_into<__S: #facade::Scalar>(
