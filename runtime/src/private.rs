@@ -21,6 +21,7 @@ pub use crate::mechanism::{
     MarkerKind, Operations, Pivot, PointHandle, PointInfo, Rank, RedundantRow, Relative, Shape,
     ShapeKind, Stabilisation, StateHandle, StateInfo, Terms, ValueHandle, ValueInfo,
 };
+pub use crate::state::sums::zero_if_finite;
 pub use crate::state::{Array, JointState, State};
 
 use crate::error::ParameterError;

@@ -38,15 +38,28 @@ pub trait JointRates: JointCoordinates {
     note = "write `#[mechanism(coordinates = \"joints\", kernels = [mass])]` above the struct, beside the kernels that are there"
 )]
 pub trait HasMassMatrix: JointRates {
-    /// The lower triangle, row by row.
+    /// All entries, row by row.
     type MassMatrix<S: Scalar>: Array<S>;
 
-    /// The mass matrix `M(q)`, without the equations that close loops.
+    /// Writes the mass matrix `M(q)`, without the equations that close loops, row by row into as
+    /// many entries as it has; nothing into fewer. Zero where all of it is finite, else NaN.
+    fn mass_matrix_into<S: Scalar>(
+        constants: &Self::JointConstants<S>,
+        time: S,
+        state: &Self::JointState<S>,
+        entries: &mut [S],
+    ) -> S;
+
+    /// The same matrix as a value.
     fn mass_matrix<S: Scalar>(
         constants: &Self::JointConstants<S>,
         time: S,
         state: &Self::JointState<S>,
-    ) -> Self::MassMatrix<S>;
+    ) -> Self::MassMatrix<S> {
+        let mut matrix = Self::MassMatrix::zeros();
+        Self::mass_matrix_into(constants, time, state, matrix.as_mut_slice());
+        matrix
+    }
 }
 
 /// A mechanism with `kernels = [inverse]`: inverse dynamics of its tree.

@@ -188,7 +188,7 @@ macro_rules! __stub_joints {
             $($bounds)*
         {
             type MassMatrix<__S: $crate::Scalar> = [__S; 0];
-            fn mass_matrix<__S: $crate::Scalar>(_: &[__S; 0], _: __S, _: &Self::JointState<__S>) -> [__S; 0] { [] }
+            fn mass_matrix_into<__S: $crate::Scalar>(_: &[__S; 0], zero: __S, _: &Self::JointState<__S>, _: &mut [__S]) -> __S { zero }
         }
         impl $($declared)* $crate::mechanism::HasInverse for $mechanism
         where

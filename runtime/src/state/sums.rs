@@ -132,7 +132,7 @@ pub(crate) fn sum_of_sizes<S: Scalar>(elements: &[S]) -> S {
 /// By -0, because what is known to be +0 then changes no sum that begins with -0, and costs
 /// nothing.
 #[inline(always)]
-pub(crate) fn zero_if_finite_after<S: Real>(sum: S, elements: &[S]) -> S {
+pub(crate) fn zero_if_finite_after<S: Scalar>(sum: S, elements: &[S]) -> S {
     let add = |sum, element: &S| element.fused(-S::zero(), sum);
     elements.iter().fold(sum, add)
 }
@@ -140,7 +140,7 @@ pub(crate) fn zero_if_finite_after<S: Real>(sum: S, elements: &[S]) -> S {
 /// The same from -0 on, of many four places at once, as in [`greatest`]; for few, one sum after the
 /// other is less than to bring four together.
 #[inline(always)]
-pub(crate) fn zero_if_finite<S: Real>(elements: &[S]) -> S {
+pub fn zero_if_finite<S: Scalar>(elements: &[S]) -> S {
     if elements.len() <= 4 {
         return zero_if_finite_after(-S::zero(), elements);
     }

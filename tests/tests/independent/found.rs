@@ -6,7 +6,7 @@ use holonom::error::{AnalysisFault, StartFault, StepFault};
 use holonom::independent::{Chosen, to_discrete};
 use holonom::mechanism::{HasInverse, HasJacobian, HasMassMatrix, Located};
 use holonom::prelude::*;
-use holonom_models::SimplePendulum;
+use holonom_models::{Panda, SimplePendulum, Ur5};
 use nalgebra::{Matrix2, SVector, Vector2, Vector3};
 
 /// A hinge, a ball, a hinge behind it, a bob on a ball, and a body that moves freely.
@@ -485,6 +485,51 @@ fn what_is_not_finite_does_not_travel() -> Result<(), Fault> {
     assert!(space.effective_mass(&state, h.c, x).is_err());
     assert!(space.linearise(&state, [], |_| []).is_err() && space.equilibrium(&state).is_err());
     Ok(())
+}
+
+/// The mass matrix is refused where an entry is no number, whichever angle is none: by what its
+/// kernel tells, and by all entries of rates in another order.
+fn refuses_masses<M: HasMassMatrix + Default, const N: usize>(
+    chosen: impl Chosen<M, N>,
+    reversed: impl Chosen<M, N>,
+    pairs: fn(&mut M::JointState<f64>) -> &mut [[f64; 2]],
+) -> Result<(), Fault> {
+    let mechanism = M::default();
+    let space = mechanism.coordinates(chosen)?;
+    let reversed = mechanism.coordinates(reversed)?;
+    let described = space.state([0.3; N], [0.0; N])?;
+    assert!(space.mass(&described).is_ok());
+    let mut refused = 0;
+    for angle in 0..N {
+        for place in 0..2 {
+            for number in [f64::NAN, f64::INFINITY] {
+                let mut state = described;
+                if let Some(pair) = pairs(&mut state).get_mut(angle) {
+                    pair[place] = number;
+                }
+                let found = space.mass(&state).is_err();
+                assert_eq!(found, reversed.mass(&state).is_err(), "{angle} {place}");
+                refused += usize::from(found);
+            }
+        }
+    }
+    // The first angle enters no entry.
+    assert!(refused >= 4 * (N - 2), "{refused}");
+    Ok(())
+}
+
+#[test]
+fn a_mass_matrix_with_an_entry_that_is_no_number_is_refused() -> Result<(), Fault> {
+    let h = Ur5::HANDLES;
+    let [a, b, c] = [h.pan, h.lift, h.elbow];
+    let [d, e, f] = [h.wrist_1, h.wrist_2, h.wrist_3];
+    let reversed = [f, e, d, c, b, a];
+    refuses_masses::<Ur5, 6>([a, b, c, d, e, f], reversed, |state| state.pairs_mut())?;
+    let h = Panda::HANDLES;
+    let [a, b, c, d] = [h.joint_1, h.joint_2, h.joint_3, h.joint_4];
+    let [e, f, g] = [h.joint_5, h.joint_6, h.joint_7];
+    let reversed = [g, f, e, d, c, b, a];
+    refuses_masses::<Panda, 7>([a, b, c, d, e, f, g], reversed, |state| state.pairs_mut())
 }
 
 /// A rod that stands on a hinge with a torsion spring, under a load.

@@ -27,7 +27,7 @@ use crate::symbolic::vector::{Triple, ZERO};
 /// The kernels that are asked for, and the rows.
 #[derive(Clone, Debug)]
 pub struct JointRates {
-    /// What is asked for. Of the mass matrix it is the lower triangle row by row, of efforts one
+    /// What is asked for. Of the mass matrix it is every entry row by row, of efforts one
     /// for each rate, of Jacobians axis, a point on it and direction of translation for each rate.
     pub asked: Vec<(Asked, Kernel)>,
     /// The accelerations of given efforts, where they are asked for, and no row closes a loop.
@@ -237,7 +237,7 @@ impl Reduced {
         sums.efforts(arena, efforts)
     }
 
-    /// The lower triangle of the mass matrix, row by row.
+    /// The mass matrix, row by row.
     fn mass_of_joints(&mut self, sums: &Sums) -> Vec<Expr> {
         let Self { links, scene, .. } = self;
         let arena = &mut scene.space.arena;
@@ -253,8 +253,12 @@ impl Reduced {
             sums.efforts(arena, entries.collect())
         });
         let columns: Vec<Vec<Expr>> = columns.collect();
-        let lower = places.flat_map(|row| (0..=row).map(move |column| (row, column)));
-        lower.map(|(row, column)| columns[column][row]).collect()
+        // Both places of an entry have the same expression.
+        let entries = places.clone().flat_map(|row| {
+            let pairs = places.clone().map(move |column| (row, column));
+            pairs.map(|(row, column)| columns[row.min(column)][row.max(column)])
+        });
+        entries.collect()
     }
 
     /// `D` of the rows that remain, row by row, `gamma`, `Phi'` and `Phi`.

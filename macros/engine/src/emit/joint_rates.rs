@@ -211,17 +211,41 @@ impl Writer<'_, JointKernels> {
         });
         let unpack = Self::unpack();
         let arguments = arguments();
+        let function = if asked == Asked::Mass {
+            let telling = kernel.telling().into_iter().map(|place| &outputs[place]);
+            let entries = local("entries");
+            // Inlined into what gives the entries a place: else that is filled with zeros first,
+            // 7 of 20 ns of a UR5.
+            quote! {
+                #[inline(always)]
+                fn mass_matrix_into<__S: #facade::Scalar>(
+                    #arguments
+                    #entries: &mut [__S],
+                ) -> __S {
+                    #unpack
+                    #statements
+                    if let ::core::option::Option::Some(#entries) = #entries.first_chunk_mut() {
+                        *#entries = [#(#outputs),*];
+                    }
+                    #facade::__private::zero_if_finite(&[#(#telling),*])
+                }
+            }
+        } else {
+            quote! {
+                fn #function<__S: #facade::Scalar>(#arguments #own) -> #returned {
+                    #unpack
+                    #statements
+                    [#(#outputs),*]
+                }
+            }
+        };
         quote! {
             #[automatically_derived]
             impl #facade::__private::#implemented for #name {
                 #declared
                 #moved_by
 
-                fn #function<__S: #facade::Scalar>(#arguments #own) -> #returned {
-                    #unpack
-                    #statements
-                    [#(#outputs),*]
-                }
+                #function
             }
         }
     }

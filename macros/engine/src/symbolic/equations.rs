@@ -1,7 +1,7 @@
 //! What is said of a mechanism before anything is solved: `Phi`, `Phi'`, `D`, `gamma`, masses,
 //! energies, rates of coordinates, the described state.
 
-use super::arena::{Arena, Expr};
+use super::arena::{Arena, Expr, Node};
 use super::expression::Constraint;
 use super::fixed::{initial_orientation, number, triple};
 use super::scene::Scene;
@@ -16,6 +16,37 @@ pub struct Kernel {
     pub arena: Arena,
     /// What is computed.
     pub outputs: Vec<Expr>,
+}
+
+impl Kernel {
+    /// The places of outputs of which one is not finite wherever any output is not. A sum or a
+    /// product is not finite where an operand is not: what another output is made of by these tells
+    /// nothing besides.
+    pub(crate) fn telling(&self) -> Vec<usize> {
+        let mut is_output = vec![false; self.arena.len()];
+        let mut is_told = is_output.clone();
+        for output in &self.outputs {
+            is_output[output.node()] = true;
+        }
+        // Operands stand before what is made of them.
+        for place in (0..self.arena.len()).rev() {
+            if !is_output[place] && !is_told[place] {
+                continue;
+            }
+            match self.arena.node(place) {
+                Node::Constant(_) => is_told[place] = true,
+                Node::Add(a, b) | Node::Multiply(a, b) => {
+                    is_told[a.node()] = true;
+                    is_told[b.node()] = true;
+                }
+                _ => {}
+            }
+        }
+        let outputs = self.outputs.iter().enumerate();
+        let mut tells = |output: &Expr| !std::mem::replace(&mut is_told[output.node()], true);
+        let places = outputs.filter(|(_, output)| tells(output));
+        places.map(|(place, _)| place).collect()
+    }
 }
 
 /// A block of the Jacobian.
@@ -324,5 +355,26 @@ pub fn initial_state(model: &Model) -> Kernel {
     Kernel {
         arena,
         outputs: coordinates,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Arena, Kernel};
+    use crate::symbolic::arena::Input;
+
+    /// Of a number, a reciprocal, what it is made of, a sum with a product and its parts.
+    #[test]
+    fn what_sums_and_products_are_made_of_tells_nothing_besides() {
+        let mut arena = Arena::new();
+        let [a, b, c] = [0, 1, 2].map(|k| arena.input(Input::Coordinate(k)));
+        let number = arena.constant(2.0);
+        let product = arena.mul(a, b);
+        let sum = arena.add(product, c);
+        let inverse = arena.reciprocal(sum);
+        let outputs = vec![number, product, -c, sum, inverse, sum, inverse];
+        let kernel = Kernel { arena, outputs };
+        // A sum may be infinite where its reciprocal is zero.
+        assert_eq!(kernel.telling(), [3, 4]);
     }
 }
