@@ -45,9 +45,7 @@ const OWN: &[&str] = &[
     "status",
     "init",
     "rates",
-    "step",
     "evaluate",
-    "advance",
     "default_parameters",
     "default_inputs",
     "fused",
@@ -300,6 +298,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             tape,
             returned: None,
             is_public: true,
+            is_checked: false,
         });
         if !self.values[1].is_empty() {
             self.taking_inputs();
@@ -342,6 +341,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             tape,
             returned: None,
             is_public: true,
+            is_checked: false,
         });
     }
 
@@ -416,6 +416,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             tape,
             returned: self.has_pivot.then_some(pivot),
             is_public: false,
+            is_checked: false,
         });
     }
 
@@ -503,9 +504,8 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             }
         };
         self.add(Function {
-            name: "advance".to_owned(),
-            about: "The state after a step; returns the least relative pivot on the way."
-                .to_owned(),
+            name: "step".to_owned(),
+            about: "Moves the state by one step of dt (s).".to_owned(),
             arguments: vec![
                 structure("constants", CONSTANTS),
                 structure("state", STATE),
@@ -514,12 +514,14 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                     kind: Kind::Number,
                     is_output: false,
                 },
-                written("next", STATE),
+                // Read and written.
+                written("state", STATE),
             ],
             outputs: outputs(3, next.into_iter()).collect(),
             tape,
             returned: pivot,
-            is_public: false,
+            is_public: true,
+            is_checked: true,
         });
         self
     }
@@ -550,6 +552,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             tape,
             returned: Some(place),
             is_public: true,
+            is_checked: false,
         });
         self
     }
@@ -593,7 +596,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         if let Some(fault) = self.fault.take() {
             return Err(fault);
         }
-        let steps = self.program.function("advance").is_some();
+        let steps = self.program.function("step").is_some();
         match self.limited {
             Some(joint) if steps && !self.is_passing_limits => Err(ExportError::Limits { joint }),
             _ => Ok(self),

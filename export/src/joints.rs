@@ -131,6 +131,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             tape,
             returned: None,
             is_public: true,
+            is_checked: false,
         });
     }
 
@@ -177,7 +178,13 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             tape,
             returned: None,
             is_public: true,
+            is_checked: false,
         });
+    }
+
+    /// Whether a step turns so few pairs that it goes on from pairs that are known.
+    pub(crate) fn has_few_turns(&self) -> bool {
+        self.pairs() <= if P::IS_SINGLE { 12 } else { 5 }
     }
 
     /// How many pairs a state has.
@@ -276,6 +283,7 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
             tape,
             returned: None,
             is_public: true,
+            is_checked: false,
         });
         self
     }
@@ -294,21 +302,16 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
             about: "The mass matrix in the rates of the joints, row by row.".to_owned(),
             members: vec![Member::array("value", "", count * count)],
         });
-        let (tape, triangle) = traced(P::IS_SINGLE, || {
+        let (tape, entries) = traced(P::IS_SINGLE, || {
             let (own, ..) = self.constants_from(0);
             let (time, state) = self.state();
-            let triangle = M::mass_matrix(&own, time, &state);
-            triangle
+            let matrix = M::mass_matrix(&own, time, &state);
+            matrix
                 .as_slice()
                 .iter()
                 .map(|entry| entry.place())
                 .collect::<Vec<_>>()
         });
-        let entry = |k: usize| {
-            let (row, column) = (k / count, k % count);
-            let (below, above) = (row.max(column), row.min(column));
-            triangle.get(below * (below + 1) / 2 + above).copied()
-        };
         self.add(Function {
             name: "mass_matrix".to_owned(),
             about: "The mass matrix in a state.".to_owned(),
@@ -317,10 +320,11 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
                 structure("state", STATE),
                 written("mass", matrix),
             ],
-            outputs: outputs(2, (0..count * count).filter_map(entry)).collect(),
+            outputs: outputs(2, entries.into_iter()).collect(),
             tape,
             returned: None,
             is_public: true,
+            is_checked: false,
         });
         self
     }
@@ -381,6 +385,7 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
             tape,
             returned: None,
             is_public: true,
+            is_checked: false,
         });
         self
     }

@@ -1,9 +1,4 @@
-//! Mechanisms of [`holonom`] as programs in C: for controllers whose compiler is one of C, for
-//! GPUs, and for other simulators.
-//!
-//! A kernel has no branch on the numbers that it computes with. Called once with numbers that write
-//! down what is computed with them ([`Traced`]), it is its own text. So are a whole step of a
-//! method and what is read of a state. What is written has the numbers of Rust to the last bit.
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
 mod c;

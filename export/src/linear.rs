@@ -78,6 +78,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             tape,
             returned: None,
             is_public: true,
+            is_checked: false,
         });
         self
     }

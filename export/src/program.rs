@@ -98,6 +98,9 @@ pub(crate) struct Function {
     pub(crate) returned: Option<Place>,
     /// Whether users of the program call it.
     pub(crate) is_public: bool,
+    /// Whether it returns a status, and writes nothing where its numbers are not finite or where
+    /// the number that it would return, the least relative pivot, vanishes.
+    pub(crate) is_checked: bool,
 }
 
 impl Function {

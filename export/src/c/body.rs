@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use super::Text;
 use super::branches::{Branch, branches};
+use super::source::balanced;
 use super::support::Support;
 use crate::export::STATE;
 use crate::program::{Function, Kind, Output, Program};
@@ -108,6 +109,13 @@ pub(super) fn body(
 impl Body<'_> {
     fn write(&mut self) {
         let function = self.function;
+        if function.is_checked {
+            let (upper, zero) = (&self.text.upper, self.text.number(0.0));
+            let _ = writeln!(
+                self.lines,
+                "    if (!(dt > {zero})) {{\n        return {upper}_BAD_STEP;\n    }}"
+            );
+        }
         let mut calls = function.tape.calls().iter().enumerate().peekable();
         for (place, operation) in function.tape.operations().iter().enumerate() {
             while let Some((number, (call, _))) = calls.next_if(|(_, (_, at))| *at == place) {
@@ -122,8 +130,26 @@ impl Body<'_> {
                 self.statement(place, *operation);
             }
         }
-        let outputs = &function.outputs;
-        for output in outputs {
+        if function.is_checked {
+            self.check();
+        }
+        for line in self.writes() {
+            let _ = writeln!(self.lines, "    {line}");
+        }
+        if function.is_checked {
+            let _ = writeln!(self.lines, "    return {}_OK;", self.text.upper);
+        } else if let Some(place) = function.returned {
+            let value = self.name(place);
+            let _ = writeln!(self.lines, "    return {value};");
+        }
+    }
+
+    /// The outputs as they are written. What is read of a struct that is written, too, is read
+    /// before.
+    fn writes(&mut self) -> Vec<String> {
+        let function = self.function;
+        let mut writes = Vec::new();
+        for output in &function.outputs {
             let argument = &function.arguments[output.argument];
             let Kind::Struct(of) = argument.kind else {
                 continue;
@@ -132,13 +158,42 @@ impl Body<'_> {
             let Some(path) = paths.get(output.number).and_then(Option::as_ref) else {
                 continue;
             };
-            let value = self.name(output.place);
-            let _ = writeln!(self.lines, "    {}->{path} = {value};", argument.name);
+            let target = format!("{}->{path}", argument.name);
+            let mut value = self.name(output.place);
+            if value == target {
+                continue;
+            }
+            if value.contains(&format!("{}->", argument.name)) {
+                let (name, real) = (self.fresh('t'), self.text.real());
+                let _ = writeln!(self.lines, "    const {real} {name} = {value};");
+                value = name;
+            }
+            writes.push(format!("{target} = {value};"));
         }
-        if let Some(place) = function.returned {
-            let value = self.name(place);
-            let _ = writeln!(self.lines, "    return {value};");
+        writes
+    }
+
+    /// Returns another status where nothing is to be written.
+    fn check(&mut self) {
+        let (function, upper) = (self.function, &self.text.upper);
+        if let Some(pivot) = function.returned {
+            let (pivot, least) = (self.operand(pivot), self.text.number(self.text.least_pivot));
+            let _ = writeln!(
+                self.lines,
+                "    if ({pivot} < {least}) {{\n        return {upper}_SINGULAR;\n    }}"
+            );
         }
+        // The difference of a number that is not finite is no number.
+        let differences = function.outputs.iter().map(|output| {
+            let name = self.operand(output.place);
+            format!("({name} - {name})")
+        });
+        let sum = balanced(&differences.collect::<Vec<_>>());
+        let (real, zero) = (self.text.real(), self.text.number(0.0));
+        let _ = writeln!(
+            self.lines,
+            "    const {real} zero =\n        {sum};\n    if (!(zero <= {zero})) {{\n        return {upper}_NOT_FINITE;\n    }}"
+        );
     }
 
     fn name(&self, place: Place) -> String {

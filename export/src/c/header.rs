@@ -92,7 +92,9 @@ fn declare(text: &Text, of: &Struct, header: &mut String) {
 
 /// What a function of the program that users call begins with.
 pub(super) fn signature(text: &Text, program: &Program, function: &Function) -> String {
-    let result = if function.returned.is_some() {
+    let result = if function.is_checked {
+        text.named("status")
+    } else if function.returned.is_some() {
         text.real()
     } else {
         "void".to_owned()
@@ -144,10 +146,4 @@ fn functions(text: &Text, program: &Program, header: &mut String) {
         header,
         "/* The rates of a state at its time. */\n{u}_FUNCTION {n}_status {n}_rates({constants}const {n}_state *state, {n}_slope *slope);\n"
     );
-    if program.function("advance").is_some() {
-        let _ = writeln!(
-            header,
-            "/* Moves the state by one step of dt (s). */\n{u}_FUNCTION {n}_status {n}_step({constants}{n}_state *state, {n}_real dt);\n"
-        );
-    }
 }

@@ -56,6 +56,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             upper: export.name.to_uppercase(),
             constants: used_constants(&export.program),
             has_pivot: export.has_pivot,
+            least_pivot: export.least_pivot,
             is_single: P::IS_SINGLE,
             has_branches: export.has_branches,
             mechanism: M::REPORT.name,
@@ -90,6 +91,7 @@ struct Text {
     /// The places of those constants that any function reads.
     constants: Vec<Option<usize>>,
     has_pivot: bool,
+    least_pivot: f64,
     is_single: bool,
     has_branches: bool,
     mechanism: &'static str,
@@ -136,11 +138,11 @@ impl Text {
                 .filter(|other| other.name == argument.name)
                 .count()
                 > 1;
-            if is_twice && !argument.is_output {
+            if is_twice && argument.is_output {
                 continue;
             }
             let (kind, name) = (self.named(of.name), argument.name);
-            declared.push(if argument.is_output {
+            declared.push(if argument.is_output || is_twice {
                 format!("{kind} *{name}")
             } else {
                 format!("const {kind} *{name}")

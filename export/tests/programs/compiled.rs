@@ -87,6 +87,13 @@ impl Program {
         Self(path)
     }
 
+    /// What it prints.
+    pub(crate) fn printed(&self) -> String {
+        let output = Command::new(&self.0).output().expect("it runs");
+        assert!(output.status.success());
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    }
+
     /// What it writes when it is given these numbers.
     pub(crate) fn run<S: Number>(&self, numbers: &[S]) -> Vec<S> {
         let mut child = Command::new(&self.0)
