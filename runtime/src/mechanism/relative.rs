@@ -14,6 +14,7 @@ use crate::mechanism::kernels::{Normalised, Pivot, Stabilisation, Terms};
 use crate::mechanism::report::{BodyInfo, BodyKind};
 use crate::mechanism::turns;
 use crate::state::sealed::Sealed;
+use crate::state::sums::sum_of_sizes_in_both;
 use crate::state::vector::{Array, MovingState, StateParts, Vector};
 
 impl Sealed for Relative {}
@@ -300,6 +301,15 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         then: impl FnOnce(&M::State<S>) -> R,
     ) -> R {
         then(&bodies_of::<S, M>(constants, state))
+    }
+
+    #[inline(always)]
+    fn turning<S: Scalar>(from: &M::JointState<S>, to: &M::JointState<S>) -> S {
+        if const { M::JOINT_REPORT.moves_one_by_one(&M::REPORT) } {
+            M::JOINT_REPORT.fastest(from, to)
+        } else {
+            sum_of_sizes_in_both(from.rates_slice(), to.rates_slice())
+        }
     }
 
     fn bodies<S: Real>(constants: &M::JointConstants<S>, state: &M::JointState<S>) -> M::State<S> {
