@@ -38,6 +38,12 @@ pub(crate) enum Depth {
     Persistent,
 }
 
+/// Coefficients and factors of a saddle system.
+type Factorised<S, M> = (
+    <M as Mechanism>::Coefficients<S>,
+    <M as Mechanism>::Factors<S>,
+);
+
 /// A state under way, what violates it, and what that is compared with.
 pub(crate) struct Iterate<S: Scalar, M: Mechanism> {
     pub(crate) state: M::State<S>,
@@ -130,17 +136,26 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
         depth: Depth,
     ) -> Self {
         let mut damping = S::one();
+        let mut factorised: Option<(S, Factorised<S, M>)> = None;
         while self.iterations < max_iterations && !self.sizes.reached(&self.violation) {
             let rest = self.sizes.measure(&self.violation, tolerance);
             let part = part(rest, depth, damping);
-            let step = self.correction(constants, part);
-            let mut next = self.accelerated(constants, &step);
-            let helped = self.helped_by(&next);
+            // Positions stay, and so does the system, unless another part is asked for.
+            let system = match &factorised {
+                Some((of, system)) if *of == part => system,
+                _ => &factorised.insert((part, self.system(constants, part))).1,
+            };
+            let step = self.solved(constants, system);
+            let state = self.accelerated(&step);
+            let violation = M::constraint_rates(constants, self.rows.time, &state);
+            // Sizes are by the speeds that are reached: those before may have been zero, or
+            // anything.
+            let sizes = self.rows.velocities(&state, self.before);
+            let helped = self.lessened(&sizes, &violation, S::constant(HELPS));
             // What can be corrected beside a violation that cannot.
-            let beyond = || next.sizes.measure(&self.violation, tolerance) > tolerance;
-            if helped || beyond() && self.lessened(&next.sizes, &next.violation, S::one()) {
-                next.iterations = self.iterations;
-                self = next;
+            let beyond = || sizes.measure(&self.violation, tolerance) > tolerance;
+            if helped || beyond() && self.lessened(&sizes, &violation, S::one()) {
+                (self.state, self.violation, self.sizes) = (state, violation, sizes);
             }
             if helped {
                 self.iterations += 1;
@@ -153,38 +168,38 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
         self
     }
 
-    /// The velocities changed by a step. Sizes are by the speeds that are reached: those before may
-    /// have been zero, or anything.
-    fn accelerated(&self, constants: &M::Constants<S>, step: &M::Velocities<S>) -> Self {
+    /// The state with its velocities changed by a step.
+    fn accelerated(&self, step: &M::Velocities<S>) -> M::State<S> {
         let mut state = self.state;
         let velocities = state.velocities_mut().as_mut_slice();
         for (velocity, &step) in velocities.iter_mut().zip(step.as_slice()) {
             *velocity = *velocity + step;
         }
-        Self {
-            state,
-            violation: M::constraint_rates(constants, self.rows.time, &state),
-            sizes: self.rows.velocities(&state, self.before),
-            iterations: self.iterations + 1,
-            ..*self
-        }
-    }
-
-    /// Whether a step has lessened the violation by more than its round-off may.
-    fn helped_by(&self, next: &Self) -> bool {
-        self.lessened(&next.sizes, &next.violation, S::constant(HELPS))
+        state
     }
 
     /// The `d` of least `d^T M d` with `D d = -violation`, with compliances that are a part of what
     /// each row yields by itself.
     fn correction(&self, constants: &M::Constants<S>, part: S) -> M::Velocities<S> {
-        let (coefficients, factors) = compliant::<S, M>(constants, &self.rows, &self.state, part);
+        self.solved(constants, &self.system(constants, part))
+    }
+
+    fn system(&self, constants: &M::Constants<S>, part: S) -> Factorised<S, M> {
+        compliant::<S, M>(constants, &self.rows, &self.state, part)
+    }
+
+    /// The same with a system that is known.
+    fn solved(
+        &self,
+        constants: &M::Constants<S>,
+        (coefficients, factors): &Factorised<S, M>,
+    ) -> M::Velocities<S> {
         let mut lower = self.violation;
         for element in lower.as_mut_slice() {
             *element = -*element;
         }
         let upper = M::Velocities::<S>::zeros();
-        M::solve::<S, Compliant>(constants, &coefficients, &factors, &upper, &lower).0
+        M::solve::<S, Compliant>(constants, coefficients, factors, &upper, &lower).0
     }
 
     /// The state moved by a step, or by the first of its halves that lessens the violation, and
@@ -307,7 +322,7 @@ pub(crate) fn compliant<S: Real, M: Mechanism>(
     rows: &Rows<S, M>,
     state: &M::State<S>,
     part: S,
-) -> (M::Coefficients<S>, M::Factors<S>) {
+) -> Factorised<S, M> {
     factorised(constants, rows, state, (part, &rows.compliances(part)))
 }
 
@@ -318,7 +333,7 @@ pub(crate) fn compliant_by_heaviest<S: Real, M: Mechanism>(
     rows: &Rows<S, M>,
     state: &M::State<S>,
     part: S,
-) -> (M::Coefficients<S>, M::Factors<S>) {
+) -> Factorised<S, M> {
     let mut compliances = rows.compliances(least());
     let heaviest = rows.yields_of_heaviest(constants, state);
     let pairs = compliances.as_mut_slice().iter_mut();
@@ -333,7 +348,7 @@ fn factorised<S: Real, M: Mechanism>(
     rows: &Rows<S, M>,
     state: &M::State<S>,
     (part, compliances): (S, &M::Multipliers<S>),
-) -> (M::Coefficients<S>, M::Factors<S>) {
+) -> Factorised<S, M> {
     let stabilisation = Stabilisation {
         rate: S::zero(),
         position: S::zero(),

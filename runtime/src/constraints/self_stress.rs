@@ -1,7 +1,7 @@
 //! Multipliers that load no body.
 
 use crate::constraints::retract::displaced;
-use crate::constraints::rows::Rows;
+use crate::constraints::rows::Speeds;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::{Block, BodyInfo, BodyKind};
@@ -40,8 +40,8 @@ pub(crate) fn passing<S: Real, M: Mechanism>(
     state: &M::State<S>,
     multipliers: &M::Multipliers<S>,
 ) -> bool {
-    let speed = Rows::<S, M>::at(constants, time, state).speeds(state);
-    let Some(duration) = speed.time_for(S::constant(FURTHER)) else {
+    let speeds = Speeds::at::<M>(constants, state);
+    let Some(duration) = speeds.time_for(S::constant(FURTHER)) else {
         return false;
     };
     let further = displaced::<S, M>(constants, state, state.velocities(), duration);

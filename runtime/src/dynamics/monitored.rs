@@ -286,13 +286,26 @@ where
             let read = &with_unit_orientations::<S, M>(bodies);
             return M::factor::<S, F::Terms>(constants, coefficients, time, read).1;
         }
-        let state = C::of_bodies(self.own_constants(), bodies);
+        self.pivot_by_joints(time, &C::of_bodies(self.own_constants(), bodies))
+    }
+
+    /// The same of a state.
+    pub(super) fn pivot_at(&self, time: S, state: &C::State<S>) -> Pivot<S> {
+        if C::IS_RELATIVE && !F::Terms::COMPLIANT {
+            self.pivot_by_joints(time, state)
+        } else {
+            self.pivot_of(time, &C::bodies(self.own_constants(), state))
+        }
+    }
+
+    /// The same of a state in relative coordinates, by equations without a compliance.
+    fn pivot_by_joints(&self, time: S, state: &C::State<S>) -> Pivot<S> {
         let (mut rates, mut multipliers) = (C::State::zeros(), Array::zeros());
         let evaluator = self.evaluator();
         let mut pivot = if Evaluator::<S, M, F, A, C>::IN_PARTS {
-            evaluator.straight(time, &state, &mut rates, &mut multipliers)
+            evaluator.straight(time, state, &mut rates, &mut multipliers)
         } else {
-            evaluator.slope(time, &state, &mut rates, &mut multipliers)
+            evaluator.slope(time, state, &mut rates, &mut multipliers)
         };
         pivot.relative = Self::squared(pivot.relative);
         pivot

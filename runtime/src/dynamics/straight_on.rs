@@ -3,7 +3,7 @@
 
 use super::evaluate::Parts;
 use super::{Dynamics, Evaluator, Solvable, VANISHED, vanishes};
-use crate::constraints::rows::Rows;
+use crate::constraints::rows::{Speeds, compliances_at};
 use crate::error::{Fault, StepFault};
 use crate::formulation::{Formulation, StraightOn};
 use crate::math::scalar::Real;
@@ -87,9 +87,11 @@ where
         state: C::State<S>,
         pivot: S,
     ) -> Option<C::State<S>> {
-        if self.grows(time, &state, (Self::squared(pivot), S::constant(FURTHER))) {
+        let bodies = self.bodies_as_read(&state);
+        let squared = Self::squared(pivot);
+        if self.grows(time, (&state, &bodies), (squared, S::constant(FURTHER))) {
             self.be_near();
-            return self.yielding(time, &state);
+            return self.yielding(time, (&state, &bodies));
         }
         self.near = (S::constant(0.5) * pivot).max(S::constant(VANISHED) * S::EPSILON);
         None
@@ -97,12 +99,16 @@ where
 
     /// The rates with a compliance where equations nearly depend on each other.
     #[inline(never)]
-    fn yielding(&self, time: S, state: &C::State<S>) -> Option<C::State<S>> {
+    fn yielding(
+        &self,
+        time: S,
+        (state, bodies): (&C::State<S>, &M::State<S>),
+    ) -> Option<C::State<S>> {
         let formulation = StraightOn::of(&self.stabilisation);
         let constants = &self.absolute.constants;
-        let rows = self.at_bodies(state, |bodies| Rows::<S, M>::at(constants, time, bodies));
         let stabilisation = formulation.coefficients();
-        let compliances = rows.compliances(stabilisation.compliance);
+        let part = stabilisation.compliance;
+        let compliances = compliances_at::<S, M>(constants, time, bodies, part);
         let absolute = Equations {
             constants: *constants,
             coefficients: M::coefficients_by_row(constants, stabilisation, &compliances),
@@ -142,17 +148,20 @@ where
     #[cold]
     #[inline(never)]
     pub(crate) fn is_crossing(&self, time: S, state: C::State<S>, pivot: S) -> bool {
-        let around = S::constant(AROUND);
-        self.grows(time, &state, (pivot, around)) || self.grows(time, &state, (pivot, -around))
+        let (around, bodies) = (S::constant(AROUND), self.bodies_as_read(&state));
+        let grows = |way| self.grows(time, (&state, &bodies), (pivot, way));
+        grows(around) || grows(-around)
     }
 
     /// Whether a pivot is larger a short way further along the motion, or back.
-    fn grows(&self, time: S, state: &C::State<S>, (pivot, way): (S, S)) -> bool {
+    fn grows(
+        &self,
+        time: S,
+        (state, bodies): (&C::State<S>, &M::State<S>),
+        (pivot, way): (S, S),
+    ) -> bool {
         let constants = &self.absolute.constants;
-        let duration = self.at_bodies(state, |bodies| {
-            let speeds = Rows::<S, M>::at(constants, time, bodies).speeds(bodies);
-            speeds.time_for(way)
-        });
+        let duration = Speeds::at::<M>(constants, bodies).time_for(way);
         let Some(duration) = duration.filter(|duration| duration.is_finite()) else {
             return false;
         };
@@ -165,15 +174,14 @@ where
         let way = C::way(own, time, state, &velocities);
         let mut further = state.plus([(duration, &way)]);
         C::normalise(&self.absolute, own, &mut further, None);
-        let there = self.pivot_of(time, &C::bodies(own, &further)).relative;
+        let there = self.pivot_at(time, &further).relative;
         // Pivots that are round-off everywhere tell of equations that follow from others.
         there > S::constant(GROWN) * pivot.max(S::constant(VANISHED) * S::EPSILON)
     }
 
-    fn at_bodies<R>(&self, state: &C::State<S>, then: impl FnOnce(&M::State<S>) -> R) -> R {
-        C::with_bodies(self.own_constants(), state, |bodies| {
-            then(&with_unit_orientations::<S, M>(bodies))
-        })
+    /// The bodies of a state, with Euler parameters as kernels read them.
+    fn bodies_as_read(&self, state: &C::State<S>) -> M::State<S> {
+        C::with_bodies(self.own_constants(), state, with_unit_orientations::<S, M>)
     }
 
     /// What becomes of an evaluation in parts that may be near to a singular configuration.

@@ -101,7 +101,7 @@ where
     #[inline]
     fn follow(&mut self, from: &C::State<S>, step: S, to: &mut C::State<S>) {
         self.has_counted = true;
-        if !turns::is_known(turns::carry(from, step, to)) {
+        if !turns::is_known(turns::carry(from, step, to, C::turning)) {
             // A copy, as a state that others are shown stays in memory.
             let mut normal = *to;
             self.count_from(from, step, &mut normal);

@@ -1,7 +1,7 @@
 //! The augmented Lagrangian formulation.
 
 use super::{Formulation, Saddle, Solution, faster_decay, inconsistency, penalty};
-use crate::constraints::rows::Rows;
+use crate::constraints::rows::stiffness_at;
 use crate::constraints::self_stress::{passing, self_stressed};
 use crate::error::setting::positive;
 use crate::error::step::counted;
@@ -250,7 +250,11 @@ impl<S: Real> AugmentedLagrangian<S> {
                 }
                 Acceptance::Lasting => next.unconverged = true,
             }
-        } else if self.loads_no_motion(saddle, next, &multipliers) {
+        } else if self.loads_no_motion(saddle, next, &multipliers, || {
+            let at = |bodies: &_| stiffness_at::<S, M>(saddle.absolute, saddle.time, bodies);
+            let all = C::with_bodies(saddle.constants, saddle.state, at);
+            of_free_bodies::<S, M, C>(|row| all.as_slice().get(C::row_of_all(row)?).copied())
+        }) {
             next.unconverged = true;
             return Ok(());
         }
@@ -268,6 +272,7 @@ impl<S: Real> AugmentedLagrangian<S> {
         saddle: &Saddle<'_, S, M, C, Compliant>,
         solution: &Solution<S, M, C>,
         change: &C::Multipliers<S>,
+        own: impl FnOnce() -> C::Multipliers<S>,
     ) -> bool {
         let mut further = *solution;
         saddle.solve_again(&mut further);
@@ -283,17 +288,8 @@ impl<S: Real> AugmentedLagrangian<S> {
                 return false;
             }
         }
-        C::with_bodies(saddle.constants, saddle.state, |bodies| {
-            let rows = Rows::<S, M>::at(saddle.absolute, saddle.time, bodies);
-            let mut of_bodies = S::zero();
-            for (row, &next) in next.as_slice().iter().enumerate() {
-                let row = C::row_of_all(row);
-                if let Some(&own) = row.and_then(|row| rows.stiffness.as_slice().get(row)) {
-                    of_bodies = (own * next).fused(next, of_bodies);
-                }
-            }
-            stiffness <= S::constant(ACCEPTED * ACCEPTED) * of_bodies
-        })
+        let of_bodies = weighted(next.as_slice(), own().as_slice());
+        stiffness <= S::constant(ACCEPTED * ACCEPTED) * of_bodies
     }
 
     /// A solution on the way through a singular configuration: as often as it takes, at most
@@ -314,7 +310,16 @@ impl<S: Real> AugmentedLagrangian<S> {
         let multipliers = difference_of(&next.multipliers, &last.multipliers);
         let is_passing = match saddle.by_all_rows(&next.accelerations, &multipliers) {
             Some(rows) => matches!(acceptance(saddle.time, &rows).1, Acceptance::Passing),
-            None => self.loads_no_motion(saddle, next, &multipliers),
+            // Compliances are stiffnesses over `alpha` here.
+            None => self.loads_no_motion(saddle, next, &multipliers, || {
+                let compliances = saddle.compliances.as_slice();
+                of_free_bodies::<S, M, C>(|row| {
+                    C::row_of_all(row)?;
+                    compliances
+                        .get(row)
+                        .map(|&compliance| self.alpha * compliance)
+                })
+            }),
         };
         if is_passing {
             Ok(())
@@ -384,6 +389,18 @@ impl<S: Real> AugmentedLagrangian<S> {
         let joint = C::joint_of_row(largest(descent.missing.as_slice()));
         Err(self.not_converged(2 * self.max_iterations, size, joint))
     }
+}
+
+/// The stiffness of free bodies row by row, as the rows of the solution have it: of those that the
+/// equations in absolute coordinates leave out there is none.
+fn of_free_bodies<S: Real, M: Mechanism, C: Coordinates<M>>(
+    of_row: impl Fn(usize) -> Option<S>,
+) -> C::Multipliers<S> {
+    let mut own = C::Multipliers::<S>::zeros();
+    for (place, stiffness) in own.as_mut_slice().iter_mut().enumerate() {
+        *stiffness = of_row(place).unwrap_or(S::zero());
+    }
+    own
 }
 
 /// Why an iteration may end before its tolerance.

@@ -1,5 +1,6 @@
 //! Sums of slopes with constant weights.
 
+use crate::math::names::is_same;
 use crate::math::scalar::Scalar;
 
 /// A Butcher tableau of an explicit Runge-Kutta method: `y_i = y + h sum of a_ij k_j`, and the end
@@ -16,18 +17,10 @@ pub struct Tableau {
 /// The place of a name, which stands among these.
 pub(super) const fn place(names: &[&str], name: &str) -> usize {
     let mut place = 0;
-    while !is_same(names[place].as_bytes(), name.as_bytes()) {
+    while !is_same(names[place], name) {
         place += 1;
     }
     place
-}
-
-const fn is_same(a: &[u8], b: &[u8]) -> bool {
-    let mut place = 0;
-    while place < a.len() && place < b.len() && a[place] == b[place] {
-        place += 1;
-    }
-    place == a.len() && place == b.len()
 }
 
 /// The terms of a sum: slopes, each with a weight times the step.

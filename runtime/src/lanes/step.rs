@@ -40,7 +40,8 @@ where
         if !self.equations.are_sound(&next) || !P::Coordinates::normalise_near(&mut next) {
             self.apart(&mut next, dt);
         }
-        let turned = turns::carry(&self.state, Lanes::splat(dt), &mut next);
+        let (from, of_all) = (&self.state, Lanes::splat(dt));
+        let turned = turns::carry(from, of_all, &mut next, P::Coordinates::turning);
         if !Lanes::are_within(&[turned], turns::FAR) {
             self.count(&mut next, dt);
         }

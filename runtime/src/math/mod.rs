@@ -8,6 +8,7 @@
 
 pub(crate) mod angles;
 pub(crate) mod clock;
+pub(crate) mod names;
 pub(crate) mod quaternion;
 pub(crate) mod scalar;
 pub(crate) mod side;

@@ -13,6 +13,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::{Mechanism, Normalised, Orientation, Pivot, Stabilisation, Terms};
 use crate::state::sealed::Sealed;
+use crate::state::sums::sum_of_sizes_in_both;
 use crate::state::vector::{Array, MovingState, Vector};
 
 /// Absolute (Cartesian) coordinates: position and Euler parameters of every body, one multiplier
@@ -233,6 +234,13 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + Sealed + 'static {
         state: &Self::State<S>,
         then: impl FnOnce(&M::State<S>) -> R,
     ) -> R;
+
+    /// A sum of speeds (rad/s) in two states, which that of the angle of no joint exceeds.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn turning<S: Scalar>(from: &Self::State<S>, to: &Self::State<S>) -> S {
+        sum_of_sizes_in_both(from.rates_slice(), to.rates_slice())
+    }
 
     /// How the bodies stand and move.
     fn bodies<S: Real>(constants: &Self::Constants<S>, state: &Self::State<S>) -> M::State<S>;

@@ -14,6 +14,7 @@ use crate::mechanism::kernels::{Normalised, Pivot, Stabilisation, Terms};
 use crate::mechanism::report::{BodyInfo, BodyKind};
 use crate::mechanism::turns;
 use crate::state::sealed::Sealed;
+use crate::state::sums::sum_of_sizes_in_both;
 use crate::state::vector::{Array, MovingState, StateParts, Vector};
 
 impl Sealed for Relative {}
@@ -289,6 +290,15 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         then(&bodies_of::<S, M>(constants, state))
     }
 
+    #[inline(always)]
+    fn turning<S: Scalar>(from: &M::JointState<S>, to: &M::JointState<S>) -> S {
+        if const { M::JOINT_REPORT.moves_one_by_one(&M::REPORT) } {
+            M::JOINT_REPORT.fastest(from, to)
+        } else {
+            sum_of_sizes_in_both(from.rates_slice(), to.rates_slice())
+        }
+    }
+
     fn bodies<S: Real>(constants: &M::JointConstants<S>, state: &M::JointState<S>) -> M::State<S> {
         bodies_of::<S, M>(constants, state)
     }
@@ -442,12 +452,6 @@ pub(crate) fn each_body<S: Scalar, M: JointCoordinates>(
     rest.get(..others).unwrap_or(rest)
 }
 
-/// Writes numbers from a place on.
-fn put<S: Scalar>(numbers: &mut [S], place: usize, values: &[S]) {
-    let places = numbers.iter_mut().skip(place).zip(values);
-    places.for_each(|(place, &value)| *place = value);
-}
-
 /// How the bodies of joint coordinates stand and move.
 pub(crate) fn bodies_of<S: Real, M: JointCoordinates>(
     constants: &M::JointConstants<S>,
@@ -492,34 +496,26 @@ pub(crate) fn bodies_by<S: Scalar, M: JointCoordinates>(
 ) -> M::State<S> {
     let mut bodies = M::State::from_parts(Array::zeros(), Array::zeros());
     let others = each_body::<S, M>(motions.as_slice(), |_, body, motion| {
-        put(
-            bodies.coordinates_mut().as_mut_slice(),
-            body.coordinate,
-            motion.position,
-        );
-        put(
-            bodies.velocities_mut().as_mut_slice(),
-            body.velocity,
-            motion.velocity,
-        );
+        let (place, speed) = (body.coordinate, body.velocity);
+        write(coordinates_of(&mut bodies), place, *motion.position);
+        write(velocities_of(&mut bodies), speed, *motion.velocity);
         if let Some((rows, spin)) = motion.rotation {
-            let place = body.coordinate + 3;
-            let euler_parameters = euler_parameters(place, rows);
-            put(
-                bodies.coordinates_mut().as_mut_slice(),
-                place,
-                &euler_parameters,
-            );
-            put(
-                bodies.velocities_mut().as_mut_slice(),
-                body.velocity + 3,
-                spin,
-            );
+            let euler_parameters = euler_parameters(place + 3, rows);
+            write(coordinates_of(&mut bodies), place + 3, euler_parameters);
+            write(velocities_of(&mut bodies), speed + 3, *spin);
         }
     });
-    let coordinates = bodies.coordinates_mut().as_mut_slice();
     for (place, &value) in others.iter().enumerate() {
-        put(coordinates, M::REPORT.coordinates + place, &[value]);
+        let place = M::REPORT.coordinates + place;
+        write(coordinates_of(&mut bodies), place, [value]);
     }
     bodies
+}
+
+fn coordinates_of<S: Scalar, X: StateParts<S>>(bodies: &mut X) -> &mut [S] {
+    bodies.coordinates_mut().as_mut_slice()
+}
+
+fn velocities_of<S: Scalar, X: StateParts<S>>(bodies: &mut X) -> &mut [S] {
+    bodies.velocities_mut().as_mut_slice()
 }

@@ -1,17 +1,18 @@
 //! Angles of joints over many turns.
 //!
 //! A state counts them, see [`Vector::turns`]: the angle of every joint that has one when it
-//! was counted last, and how far any may have turned since, by the sum of all rates. Angles are
-//! counted anew where that may be a radian, so a step of a slow motion costs a sum. Sine and cosine
-//! tell an angle up to whole turns; these are the ones that bring it nearest to what was counted
-//! last and the mean of both rates times the time between.
+//! was counted last, and how far any may have turned since. That is by the sum of all rates, or by
+//! the greatest rate of a joint where each is one motion of a tree. Angles are counted anew where
+//! it may be a radian, so a step of a slow motion costs a sum. Sine and cosine tell an angle up to
+//! whole turns; these are the ones that bring it nearest to what was counted last and the mean of
+//! both rates times the time between.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::readout::AngleParts;
-use crate::state::sums::sum_of_sizes;
+use crate::state::sums::sum_of_sizes_in_both;
 use crate::state::vector::{MovingState, Vector};
 
 /// How far angles may have turned (rad) since they were counted.
@@ -77,16 +78,21 @@ pub(crate) fn copy<S: Scalar, X: Vector<S>, Y: Vector<S>>(from: &X, to: &mut Y) 
 }
 
 /// Takes over what a state has counted that was left some time (s) ago. How far (rad) angles may
-/// have turned since they were counted: beyond [`FAR`] they are to be counted, by [`count`].
+/// have turned since they were counted, by the sum of the speeds (rad/s) in both states: beyond
+/// [`FAR`] they are to be counted, by [`count`].
 #[inline]
-pub(crate) fn carry<S: Scalar, X: MovingState<S>>(from: &X, time: S, to: &mut X) -> S {
+pub(crate) fn carry<S: Scalar, X: MovingState<S>>(
+    from: &X,
+    time: S,
+    to: &mut X,
+    speeds: impl Fn(&X, &X) -> S,
+) -> S {
     let Some(&since) = from.turns().last() else {
         return S::zero();
     };
     // The mean of both speeds is at least half of the greater one. So an angle turns by less than
     // two radians before it is counted, and half a turn is more.
-    let speeds = sum_of_sizes(from.rates_slice()) + sum_of_sizes(to.rates_slice());
-    let turned = speeds.fused(S::constant(0.5) * time.abs(), since);
+    let turned = speeds(from, to).fused(S::constant(0.5) * time.abs(), since);
     copy(from, to);
     if let Some(since) = to.turns_mut().last_mut() {
         *since = turned;
@@ -109,7 +115,10 @@ pub(crate) fn follow<S: Real, M: Mechanism>(
     time: S,
     to: &mut M::State<S>,
 ) -> bool {
-    is_known(carry(from, time, to)) || count::<S, M>(constants, from, time, to)
+    let speeds = |from: &M::State<S>, to: &M::State<S>| {
+        sum_of_sizes_in_both(from.rates_slice(), to.rates_slice())
+    };
+    is_known(carry(from, time, to, speeds)) || count::<S, M>(constants, from, time, to)
 }
 
 /// Counts all angles of a state that was reached from another one in some time (s); whether they

@@ -126,6 +126,12 @@ pub(crate) fn sum_of_sizes<S: Scalar>(elements: &[S]) -> S {
     a + b
 }
 
+/// The same of all elements of two states.
+#[inline(always)]
+pub(crate) fn sum_of_sizes_in_both<S: Scalar>(from: &[S], to: &[S]) -> S {
+    sum_of_sizes(from) + sum_of_sizes(to)
+}
+
 /// A sum and -0 times all elements: the sum where these are finite, else NaN, as is -0 times any
 /// other number, and every sum with NaN. A comparison for each would be more.
 ///

@@ -2,8 +2,12 @@
 //! mean the same.
 
 mod sizes;
+mod stiffness;
 
 pub(crate) use sizes::Sizes;
+pub(crate) use stiffness::{compliances_at, evened, stiffness_at};
+
+use stiffness::{compliances, felt, stiffness, yields};
 
 use crate::constraints::extent::{centre, extent};
 use crate::math::scalar::{Real, Scalar};
@@ -58,6 +62,32 @@ pub(crate) struct Speeds<S> {
 }
 
 impl<S: Real> Speeds<S> {
+    /// Those of a state, of a mechanism of an extent (m).
+    fn of<M: Mechanism>(state: &M::State<S>, extent: S) -> Self {
+        let velocities = state.velocities().as_slice();
+        let (mut translation, mut rotation) = (S::zero(), S::zero());
+        for body in M::REPORT.bodies {
+            translation = translation.max(norm(&read::<S, 3>(velocities, body.velocity)));
+            if body.kind == BodyKind::Rigid {
+                rotation = rotation.max(norm(&read::<S, 3>(velocities, body.velocity + 3)));
+            }
+        }
+        let turning = if extent > S::zero() {
+            rotation.max(translation.quotient(extent))
+        } else {
+            rotation
+        };
+        Self {
+            translation: translation.max(rotation * extent),
+            rotation: turning,
+        }
+    }
+
+    /// Those of a state.
+    pub(crate) fn at<M: Mechanism>(constants: &M::Constants<S>, state: &M::State<S>) -> Self {
+        Self::of::<M>(state, extent::<S, M>(constants, state))
+    }
+
     /// How long a motion of a part of the extent of the mechanism, or of so many radians, takes;
     /// `None` at rest.
     pub(crate) fn time_for(self, part: S) -> Option<S> {
@@ -103,24 +133,19 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         if const { M::REPORT.curved } {
             rows.take_curvature(constants, state);
         }
-        evened::<S, M>(&mut rows.stiffness);
         rows
     }
 
-    /// Norms of the rows of `D`, body by body.
+    /// Norms of the rows of `D`, body by body, and their stiffness.
     fn take_jacobian(&mut self, constants: &M::Constants<S>, state: &M::State<S>) {
         let jacobian = M::jacobian(constants, self.time, state);
-        let mass = M::metric(constants);
-        add_blocks(
-            M::REPORT.blocks,
+        take_norms(
             jacobian.as_slice(),
-            mass.as_slice(),
-            [
-                self.translation.as_mut_slice(),
-                self.rotation.as_mut_slice(),
-                self.stiffness.as_mut_slice(),
-            ],
+            self.translation.as_mut_slice(),
+            self.rotation.as_mut_slice(),
+            M::REPORT.blocks,
         );
+        self.stiffness = stiffness::<S, M>(&jacobian, &yields::<S, M>(constants), M::REPORT.blocks);
     }
 
     /// Whether a movement is so small that the rows are as good as those of the state that is
@@ -275,23 +300,7 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
 
     /// The largest speeds of a state.
     pub(crate) fn speeds(&self, state: &M::State<S>) -> Speeds<S> {
-        let velocities = state.velocities().as_slice();
-        let (mut translation, mut rotation) = (S::zero(), S::zero());
-        for body in M::REPORT.bodies {
-            translation = translation.max(norm(&read::<S, 3>(velocities, body.velocity)));
-            if body.kind == BodyKind::Rigid {
-                rotation = rotation.max(norm(&read::<S, 3>(velocities, body.velocity + 3)));
-            }
-        }
-        let turning = if self.extent > S::zero() {
-            rotation.max(translation.quotient(self.extent))
-        } else {
-            rotation
-        };
-        Speeds {
-            translation: translation.max(rotation * self.extent),
-            rotation: turning,
-        }
+        Speeds::of::<M>(state, self.extent)
     }
 
     /// The norm of a violation in the metric of the mass, row by row: what a correction lessens,
@@ -416,19 +425,10 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
         state: &M::State<S>,
     ) -> M::Multipliers<S> {
         let jacobian = M::jacobian(constants, self.time, state);
-        let mass = M::metric(constants);
+        let yields = yields::<S, M>(constants);
         let mut least = self.stiffness;
         for block in M::REPORT.blocks {
-            let mut own = M::Multipliers::<S>::zeros();
-            let [mut force, mut moment] = [own; 2];
-            let places = [
-                force.as_mut_slice(),
-                moment.as_mut_slice(),
-                own.as_mut_slice(),
-            ];
-            let block = core::slice::from_ref(block);
-            add_blocks(block, jacobian.as_slice(), mass.as_slice(), places);
-            evened::<S, M>(&mut own);
+            let own = stiffness::<S, M>(&jacobian, &yields, core::slice::from_ref(block));
             let rows = least.as_mut_slice().iter_mut().zip(own.as_slice());
             rows.filter(|(_, own)| **own > S::zero())
                 .for_each(|(least, &own)| *least = least.min(own));
@@ -439,48 +439,22 @@ impl<S: Real, M: Mechanism> Rows<S, M> {
     /// Compliances of the rows: a part of what each yields to a unit load; any positive number for
     /// a row that vanishes.
     pub(crate) fn compliances(&self, part: S) -> M::Multipliers<S> {
-        let mut compliances = self.stiffness;
-        for element in compliances.as_mut_slice() {
-            *element = part * felt(*element);
-        }
-        compliances
+        compliances::<S, M>(self.stiffness, part)
     }
 }
 
-/// The stiffness of a row; of one that vanishes, any.
-fn felt<S: Real>(stiffness: S) -> S {
-    if stiffness > S::zero() {
-        stiffness
-    } else {
-        S::one()
-    }
-}
-
-/// The norms of the rows of `D` by translation and by rotation, of the body where they are largest,
-/// and their stiffness.
-fn add_blocks<S: Real>(
-    blocks: &[Block],
+/// The norms of the rows of `D` by translation and by rotation, of the body where they are largest.
+fn take_norms<S: Real>(
     jacobian: &[S],
-    mass: &[S],
-    [translations, rotations, stiffnesses]: [&mut [S]; 3],
+    translations: &mut [S],
+    rotations: &mut [S],
+    blocks: &[Block],
 ) {
     for block in blocks {
         let values = jacobian.get(block.offset..).unwrap_or(&[]);
         let rows = translations.iter_mut().zip(rotations.iter_mut());
-        let rows = rows.zip(stiffnesses.iter_mut());
         let rows = rows.skip(block.row).take(block.rows);
-        // The masses that a block has at the most.
-        let mut inverses = [S::zero(); 6];
-        let masses = mass.iter().skip(block.column).take(block.columns);
-        for (inverse, &mass) in inverses.iter_mut().zip(masses) {
-            *inverse = S::one().quotient(mass);
-        }
-        for (((translation, rotation), stiffness), row) in
-            rows.zip(values.chunks(block.columns.max(1)))
-        {
-            for (&value, &inverse) in row.iter().zip(&inverses) {
-                *stiffness = (value * value).fused(inverse, *stiffness);
-            }
+        for ((translation, rotation), row) in rows.zip(values.chunks(block.columns.max(1))) {
             let (force, moment) = row.split_at_checked(3).unwrap_or((row, &[]));
             *translation = translation.max(norm(force));
             *rotation = rotation.max(norm(moment));
@@ -496,16 +470,6 @@ struct Row<S> {
     distance: S,
     counted: S,
     drift: S,
-}
-
-/// Gives the three rows of a vector equation the largest of their values.
-pub(crate) fn evened<S: Real, M: Mechanism>(values: &mut M::Multipliers<S>) {
-    for &first in M::VECTOR_ROWS {
-        let rows = values.as_mut_slice().get_mut(first..).unwrap_or(&mut []);
-        let three = rows.iter_mut().take(3);
-        let most = three.fold(S::zero(), |most, value| most.max(*value));
-        rows.iter_mut().take(3).for_each(|value| *value = most);
-    }
 }
 
 /// What counted turns add to the terms of the rows that they stand in: found by one more turn of
