@@ -132,22 +132,26 @@ fn turn(text: &Text) -> String {
     let per_quarter = c(std::f64::consts::FRAC_2_PI);
     format!(
         "\
-/* Sine and versine, 1 - cos, of an angle (rad). */
-static {u}_FUNCTION void {n}_turn({real} angle, {real} *sine, {real} *versine)
+/* Sine and versine, 1 - cos, of a small angle (rad). */
+static inline {u}_FUNCTION void {n}_small_turn({real} x, {real} *sine, {real} *versine)
+{{
+    const {real} square = x * x;
+    const {real} fourth = square * square;
+    *sine = {n}_fused(
+        {of_sine}, square * x, x);
+    *versine = {n}_fused(
+        {of_versine}, fourth, {half} * square);
+}}
+
+/* Of any other angle: of what quarters of a turn leave over. */
+static {u}_FUNCTION void {n}_large_turn({real} angle, {real} *sine, {real} *versine)
 {{
     const {real} sum = angle * {per_quarter} + {whole};
-    const int is_small = {n}_fabs(angle) < {small};
-    const {real} quarters = is_small ? {zero} : sum - {whole};
+    const {real} quarters = sum - {whole};
     const {real} rest = angle - quarters * {first};
     const {real} near = rest - quarters * {second};
     const {real} lost = (rest - near) - quarters * {second} - quarters * {third};
-    const {real} x = is_small ? angle : near + lost;
-    const {real} square = x * x;
-    const {real} fourth = square * square;
-    const {real} s = {n}_fused(
-        {of_sine}, square * x, x);
-    const {real} v = {n}_fused(
-        {of_versine}, fourth, {half} * square);
+    {real} s, v;
     int place;
     if (!({n}_fabs(angle) < {some})) {{
         /* By functions of half the angle: what is lost of quarters is too much. */
@@ -157,12 +161,22 @@ static {u}_FUNCTION void {n}_turn({real} angle, {real} *sine, {real} *versine)
         return;
     }}
     place = (int)quarters & 3;
+    {n}_small_turn(near + lost, &s, &v);
     *sine = (place & 1) == 0 ? s : {one} - v;
     *sine = (place & 2) == 0 ? *sine : -*sine;
     *versine = (place & 1) == 0 ? ((place & 2) == 0 ? v : {two} - v)
                                 : {one} + ((place & 2) == 0 ? s : -s);
 }}
-",
-        zero = c(0.0),
+
+/* Of any angle. */
+static inline {u}_FUNCTION void {n}_turn({real} angle, {real} *sine, {real} *versine)
+{{
+    if ({n}_fabs(angle) < {small}) {{
+        {n}_small_turn(angle, sine, versine);
+    }} else {{
+        {n}_large_turn(angle, sine, versine);
+    }}
+}}
+"
     )
 }
