@@ -39,6 +39,8 @@ pub enum ExportError {
         /// The name.
         name: String,
     },
+    /// A rollout of a program without a step: see [`Export::step`](crate::Export::step).
+    Step,
     /// A file that cannot be written.
     File(io::Error),
 }
@@ -63,6 +65,7 @@ impl fmt::Display for ExportError {
                 "`{function}` compares numbers: what is exported has no branch on them; use `select` in the place of a comparison"
             ),
             Self::Name { name } => write!(f, "the name `{name}` is given twice"),
+            Self::Step => f.write_str("a rollout takes steps: say `.step(Rk4)` before `.cuda()`"),
             Self::File(error) => error.fmt(f),
         }
     }

@@ -58,6 +58,8 @@ const OWN: &[&str] = &[
     "atan2",
     "round",
     "turn",
+    "small_turn",
+    "large_turn",
     "state_is_finite",
     "slope_is_finite",
 ];

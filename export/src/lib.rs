@@ -16,7 +16,7 @@ mod system;
 mod tape;
 mod values;
 
-pub use c::Source;
+pub use c::{Rollout, Source};
 pub use error::ExportError;
 pub use export::{Export, ExportExt};
 pub use number::{Double, Precision, Single, Traced};

@@ -3,6 +3,7 @@
 mod body;
 mod branches;
 mod header;
+mod rollout;
 mod source;
 mod support;
 
@@ -17,6 +18,8 @@ use crate::export::{CONSTANTS, Export};
 use crate::number::Precision;
 use crate::program::{Argument, Function, Kind, Program};
 use crate::tape::Operation;
+
+pub use rollout::Rollout;
 
 /// A program in C: the text of its two files.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,6 +53,13 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     /// # Errors
     /// What was wrong with the mechanism or with one of its functions.
     pub fn c(self) -> Result<Source, ExportError> {
+        let (text, export) = self.laid_out()?;
+        Ok(text.source(export))
+    }
+
+    /// The program with the constants that any function reads, and what is asked while it is
+    /// written.
+    fn laid_out(self) -> Result<(Text, Self), ExportError> {
         let mut export = self.checked()?;
         let text = Text {
             name: export.name.clone(),
@@ -67,11 +77,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             Some(values) if constants > 0 => values.length = Some(constants),
             _ => members.clear(),
         }
-        Ok(Source {
-            header: header::header(&text, &export),
-            source: source::source(&text, &export),
-            name: export.name,
-        })
+        Ok((text, export))
     }
 
     /// Writes `name.h` and `name.c` into a folder.
@@ -98,6 +104,18 @@ struct Text {
 }
 
 impl Text {
+    /// The two files.
+    fn source<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
+        &self,
+        export: Export<M, P, C>,
+    ) -> Source {
+        Source {
+            header: header::header(self, &export),
+            source: source::source(self, &export),
+            name: export.name,
+        }
+    }
+
     /// A type or a function of the program.
     fn named(&self, name: &str) -> String {
         format!("{}_{name}", self.name)

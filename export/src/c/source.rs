@@ -51,8 +51,10 @@ pub(super) fn source<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
 /* The mechanism {mechanism}, written by holonom-export {version}: see {n}.h. */
 #include \"{n}.h\"
 
-#ifndef __CUDACC_RTC__
+#if !defined(__CUDACC_RTC__) && !defined(__HIPCC_RTC__)
 #include <math.h>
+#elif !defined(HUGE_VAL)
+#define HUGE_VAL __int_as_float(0x7f800000)
 #endif
 
 {alone}/* No product and sum is rounded at once unless it is said. */

@@ -13,7 +13,6 @@ use rand_chacha::ChaCha8Rng;
 
 /// Warnings that a program in C must not have.
 const STRICT: &[&str] = &[
-    "-std=c99",
     "-Wall",
     "-Wextra",
     "-Wconversion",
@@ -58,23 +57,57 @@ macro_rules! number {
 number!(f64, 8);
 number!(f32, 4);
 
+/// The folder of a program.
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
 /// A program that was compiled.
 pub(crate) struct Program(PathBuf);
+
+/// What a program is compiled as.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Language {
+    C,
+    Cpp,
+}
 
 impl Program {
     /// Compiles a program with the function `main`.
     pub(crate) fn compiled(source: &Source, main: &str) -> Self {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(&source.name);
+        let folder = folder(&source.name);
         source.write(&folder).expect("files are written");
+        let own = folder.join(format!("{}.c", source.name));
+        Self::built(&folder, main, &[own], Language::C)
+    }
+
+    /// Compiles a function `main` that includes everything else, which is written into a folder.
+    pub(crate) fn included(
+        name: &str,
+        files: impl FnOnce(&Path),
+        main: &str,
+        language: Language,
+    ) -> Self {
+        let folder = folder(&format!("{name}_{language:?}"));
+        files(&folder);
+        Self::built(&folder, main, &[], language)
+    }
+
+    fn built(folder: &Path, main: &str, others: &[PathBuf], language: Language) -> Self {
         let main_path = folder.join("main.c");
         fs::write(&main_path, main).expect("a file is written");
         let path = folder.join("program");
-        let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+        let (variable, usual, options) = match language {
+            Language::C => ("CC", "cc", &["-std=c99"][..]),
+            Language::Cpp => ("CXX", "c++", &["-std=c++11", "-xc++"][..]),
+        };
+        let compiler = std::env::var(variable).unwrap_or_else(|_| usual.to_owned());
         let done = Command::new(&compiler)
+            .args(options)
             .args(STRICT)
             .arg("-o")
             .arg(&path)
-            .arg(folder.join(format!("{}.c", source.name)))
+            .args(others)
             .arg(&main_path)
             .arg("-lm")
             .output()
