@@ -371,7 +371,9 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
 
     /// How many numbers a function is given before the state.
     pub(crate) fn before_state(&self) -> usize {
-        self.program.structs[CONSTANTS].numbers()
+        // There is none where the mechanism was refused.
+        let constants = self.program.structs.get(CONSTANTS);
+        constants.map_or(0, Struct::numbers)
     }
 
     /// The time, and the state as arguments behind the constants.
