@@ -573,7 +573,10 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     }
 
     /// The program, if nothing is wrong with it.
-    pub(crate) fn checked(mut self) -> Result<Self, ExportError> {
+    ///
+    /// # Errors
+    /// What was wrong with the mechanism or with one of its functions.
+    pub fn checked(mut self) -> Result<Self, ExportError> {
         if let Some(fault) = self.fault.take() {
             return Err(fault);
         }

@@ -11,6 +11,7 @@ mod derivative;
 mod error;
 mod export;
 mod fold;
+mod interface;
 mod joints;
 mod layout;
 mod linear;
@@ -24,6 +25,7 @@ mod values;
 pub use c::Source;
 pub use error::ExportError;
 pub use export::{Export, ExportExt};
+pub use interface::{Coordinate, Interface, Quantity};
 pub use number::{Double, Precision, Single, Traced};
 #[doc(hidden)]
 pub use system::Called;

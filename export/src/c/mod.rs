@@ -151,7 +151,7 @@ impl Text {
 }
 
 /// The constants that are read by any function but that which computes them all, with new places.
-fn used_constants(program: &Program) -> Vec<Option<usize>> {
+pub(crate) fn used_constants(program: &Program) -> Vec<Option<usize>> {
     let constants = program.structs.get(CONSTANTS);
     let count = constants.map_or(0, Struct::numbers);
     let mut used = vec![false; count];

@@ -3,3 +3,4 @@
 mod bits;
 mod compiled;
 mod functions;
+mod interface;
