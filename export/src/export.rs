@@ -376,7 +376,9 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
 
     /// How many numbers a function is given before the state.
     pub(crate) fn before_state(&self) -> usize {
-        self.program.structs[CONSTANTS].numbers()
+        // There is none where the mechanism was refused.
+        let constants = self.program.structs.get(CONSTANTS);
+        constants.map_or(0, Struct::numbers)
     }
 
     /// The time, and the state as arguments behind the constants.
@@ -594,7 +596,10 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     }
 
     /// The program, if nothing is wrong with it.
-    pub(crate) fn checked(mut self) -> Result<Self, ExportError> {
+    ///
+    /// # Errors
+    /// What was wrong with the mechanism or with one of its functions.
+    pub fn checked(mut self) -> Result<Self, ExportError> {
         if let Some(fault) = self.fault.take() {
             return Err(fault);
         }

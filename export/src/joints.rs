@@ -80,11 +80,15 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             Freedom::Screw { counter, .. } => 2 * pairs + counter,
             _ => 2 * motion.coordinate,
         };
-        let rates = self.elements.len() - rates(report);
         Place {
             coordinate,
-            rate: rates + motion.velocity,
+            rate: self.first_rate(report) + motion.velocity,
         }
+    }
+
+    /// The place of the first velocity in a state.
+    pub(crate) fn first_rate(&self, report: &JointReport) -> usize {
+        self.elements.len() - rates(report)
     }
 
     fn reading_joints(&mut self, report: &JointReport, joints: usize) {
@@ -188,7 +192,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     }
 
     /// How many pairs a state has.
-    fn pairs(&self) -> usize {
+    pub(crate) fn pairs(&self) -> usize {
         let elements = self.elements.iter();
         elements
             .filter(|element| element.of_slope.is_none())

@@ -6,6 +6,7 @@ mod derivative;
 mod error;
 mod export;
 mod fold;
+mod interface;
 mod joints;
 mod layout;
 mod linear;
@@ -19,6 +20,7 @@ mod values;
 pub use c::{Rollout, Source};
 pub use error::ExportError;
 pub use export::{Export, ExportExt};
+pub use interface::{Coordinate, Interface, Quantity};
 pub use number::{Double, Precision, Single, Traced};
 #[doc(hidden)]
 pub use system::Called;

@@ -32,14 +32,53 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     /// The function takes parameters and inputs in the place of constants, for the sake of the
     /// derivatives by them. The header has a name for every row and every column.
     #[must_use]
-    pub fn derivatives(mut self) -> Self {
+    pub fn derivatives(self) -> Self {
         let Some(kernel) = self.program.function("evaluate") else {
             return self;
         };
         let kernel = self.program.functions[kernel].clone();
-        let columns = self.columns();
         let rows: Vec<Place> = kernel.outputs.iter().map(|output| output.place).collect();
-        let (mut tape, rows) = self.spliced(&kernel, &rows);
+        self.derived(
+            "derivatives",
+            "Derivatives of the rates of a state, at its time.",
+            ("jacobian", "Derivatives of the rates of a state: a row for each number of a slope, in their order."),
+            &[(kernel, rows)],
+        )
+    }
+
+    /// The exact derivatives of the readings that were named before, in the same columns.
+    #[must_use]
+    pub fn reading_derivatives(self) -> Self {
+        let rows = |of: &Function| (of.clone(), of.returned.into_iter().collect());
+        let kernels: Vec<_> = self.readings().map(rows).collect();
+        if kernels.is_empty() {
+            return self;
+        }
+        self.derived(
+            "reading_derivatives",
+            "Derivatives of the readings of a state, at its time.",
+            (
+                "sensitivities",
+                "Derivatives of the readings of a state: a row for each of them, in their order.",
+            ),
+            &kernels,
+        )
+    }
+
+    /// Adds a function that gives derivatives of numbers of some functions, row by row.
+    fn derived(
+        mut self,
+        name: &str,
+        about: &str,
+        (structure_name, about_structure): (&'static str, &str),
+        kernels: &[(Function, Vec<Place>)],
+    ) -> Self {
+        if self.program.function("prepare").is_none() {
+            // The mechanism was refused.
+            return self;
+        }
+        let columns = self.columns();
+        let (mut tape, rows) = self.spliced(kernels);
         let operations = tape.operations().len();
         let mut derivatives = vec![Vec::new(); rows.len()];
         for column in &columns {
@@ -58,21 +97,18 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         let jacobian = self.program.structs.len();
         let names: Vec<String> = columns.into_iter().map(|column| column.name).collect();
         self.program.structs.push(Struct {
-            name: "jacobian",
-            about: format!(
-                "Derivatives of the rates of a state: a row for each number of a slope, in their order. Columns: {}.",
-                names.join(", ")
-            ),
+            name: structure_name,
+            about: format!("{about_structure} Columns: {}.", names.join(", ")),
             members: vec![Member::array("value", "row by row", entries.len())],
         });
         self.add(Function {
-            name: "derivatives".to_owned(),
-            about: "Derivatives of the rates of a state, at its time.".to_owned(),
+            name: name.to_owned(),
+            about: about.to_owned(),
             arguments: vec![
                 structure("parameters", PARAMETERS),
                 structure("inputs", INPUTS),
                 structure("state", STATE),
-                written("jacobian", jacobian),
+                written(structure_name, jacobian),
             ],
             outputs: outputs(3, entries.into_iter()).collect(),
             tape,
@@ -156,9 +192,9 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         seeds.collect()
     }
 
-    /// The kernel with the computation of its constants in front of it, over parameters, inputs and
-    /// the state; and its outputs there.
-    fn spliced(&self, kernel: &Function, outputs: &[Place]) -> (Tape, Vec<Place>) {
+    /// Kernels with the computation of their constants in front of them, over parameters, inputs and
+    /// the state; and their numbers there.
+    fn spliced(&self, kernels: &[(Function, Vec<Place>)]) -> (Tape, Vec<Place>) {
         let prepare = self
             .program
             .function("prepare")
@@ -180,16 +216,16 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             }
         }
         let zero = tape.number(0.0);
-        let copies = copied(&mut tape, &kernel.tape, |argument| {
-            match argument.checked_sub(constants) {
-                None => given[argument].unwrap_or(zero),
-                Some(place) => Place::try_from(count + place).unwrap_or(Place::MAX),
-            }
-        });
-        let rows = outputs
-            .iter()
-            .map(|&place| copies[place as usize])
-            .collect();
+        let mut rows = Vec::new();
+        for (kernel, numbers) in kernels {
+            let copies = copied(&mut tape, &kernel.tape, |argument| {
+                match argument.checked_sub(constants) {
+                    None => given[argument].unwrap_or(zero),
+                    Some(place) => Place::try_from(count + place).unwrap_or(Place::MAX),
+                }
+            });
+            rows.extend(numbers.iter().map(|&place| copies[place as usize]));
+        }
         (tape, rows)
     }
 }

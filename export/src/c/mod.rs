@@ -16,7 +16,7 @@ use holonom::mechanism::TracedCoordinates;
 use crate::error::ExportError;
 use crate::export::{CONSTANTS, Export};
 use crate::number::Precision;
-use crate::program::{Argument, Function, Kind, Program};
+use crate::program::{Argument, Function, Kind, Program, Struct};
 use crate::tape::Operation;
 
 pub use rollout::Rollout;
@@ -174,8 +174,9 @@ impl Text {
 }
 
 /// The constants that are read by any function but that which computes them all, with new places.
-fn used_constants(program: &Program) -> Vec<Option<usize>> {
-    let count = program.structs[CONSTANTS].numbers();
+pub(crate) fn used_constants(program: &Program) -> Vec<Option<usize>> {
+    let constants = program.structs.get(CONSTANTS);
+    let count = constants.map_or(0, Struct::numbers);
     let mut used = vec![false; count];
     for function in program
         .functions

@@ -3,4 +3,5 @@
 mod bits;
 mod compiled;
 mod functions;
+mod interface;
 mod rollout;
