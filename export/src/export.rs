@@ -3,17 +3,17 @@
 use std::marker::PhantomData;
 
 use holonom::formulation::Formulation;
-use holonom::integrate::{OneStep, Scheme, Slopes, StepStart, System as _};
-use holonom::mechanism::{Coordinates, Stabilisation, Terms, TracedCoordinates};
+use holonom::mechanism::{Terms, TracedCoordinates};
 use holonom::state::{Array, MovingState, Vector as _};
-use holonom::{Mechanism, Rk4, Scalar, Stepper, View};
+use holonom::{Mechanism, Rk4, Stepper, View};
 
+use crate::constants::Constant;
 use crate::error::ExportError;
 use crate::layout::{self, Element};
 use crate::names::identifier;
 use crate::number::{Double, Precision, Traced};
 use crate::program::{Argument, Function, Kind, Member, Output, Program, Struct};
-use crate::system::{Called, ConstantsOf, StateOf, numbers, state_of};
+use crate::system::{StateOf, numbers, state_of};
 use crate::tape::{Obstacle, Operation, Place, Tape, traced, with};
 use crate::values::{self, Value};
 
@@ -31,13 +31,6 @@ pub(crate) const TIMES: usize = 2;
 /// The relative pivot, in units of the last digit, below which a system has no solution: as a
 /// [`Stepper`] has it.
 const VANISHED: f64 = 64.0;
-
-/// Constants, coefficients and the constants in absolute coordinates.
-type AllConstants<P, M, C> = (
-    ConstantsOf<P, M, C>,
-    <C as Coordinates<M>>::Coefficients<Traced<P>>,
-    <M as Mechanism>::Constants<Traced<P>>,
-);
 
 /// Names that every program has beside those of its functions and structs.
 const OWN: &[&str] = &[
@@ -64,14 +57,6 @@ const OWN: &[&str] = &[
     "slope_is_finite",
 ];
 
-/// A number that depends on parameters and inputs.
-#[derive(Clone, Copy, Debug)]
-enum Constant {
-    /// On none of them.
-    Known(f64),
-    Given,
-}
-
 /// A mechanism that is written as a program: its functions, one after the other, and then in C.
 ///
 /// ```
@@ -96,7 +81,7 @@ enum Constant {
 ///     .step(Rk4)
 ///     .reading("height", "height of the link (m)", |view| view.position(Arm::HANDLES.link).z)
 ///     .c()?;
-/// assert!(source.header.contains("arm_status arm_step(const arm_constants *constants, arm_state *state, arm_real dt);"));
+/// assert!(source.header.contains("arm_status arm_step("));
 /// # Ok::<(), holonom_export::ExportError>(())
 /// ```
 ///
@@ -115,13 +100,13 @@ pub struct Export<M: Mechanism, P = Double, C = <M as Mechanism>::Coordinates> {
     /// The least pivot that is accepted.
     pub(crate) least_pivot: f64,
     pub(crate) has_pivot: bool,
-    constants: Vec<Constant>,
+    pub(crate) constants: Vec<Constant>,
     /// The first joint with limits.
     limited: Option<&'static str>,
     is_passing_limits: bool,
     /// Whether what one side of a choice alone needs stands behind a branch.
     pub(crate) has_branches: bool,
-    fault: Option<ExportError>,
+    pub(crate) fault: Option<ExportError>,
     types: PhantomData<(M, P, C)>,
 }
 
@@ -241,139 +226,6 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         ];
     }
 
-    /// Parameters and inputs as arguments; what is neither stays the number that it is.
-    fn parameters(&self) -> M::Parameters<Traced<P>> {
-        let mut parameters = M::Parameters::<Traced<P>>::zeros();
-        let places = parameters.as_mut_slice().iter_mut();
-        for (place, &number) in places.zip(&self.defaults) {
-            *place = Traced::constant(number);
-        }
-        let given = self.values.iter().flatten().flat_map(|value| &value.places);
-        for (number, &place) in given.enumerate() {
-            if let Some(place) = parameters.as_mut_slice().get_mut(place) {
-                *place = argument(number);
-            }
-        }
-        parameters
-    }
-
-    /// The functions that compute constants, of parameters and inputs and of inputs alone.
-    fn preparation(&mut self, stabilisation: &Stabilisation<f64>) {
-        let number = Traced::<P>::constant;
-        let prepared = traced(P::IS_SINGLE, || {
-            let stabilisation = Stabilisation {
-                rate: number(stabilisation.rate),
-                position: number(stabilisation.position),
-                compliance: number(stabilisation.compliance),
-            };
-            let parameters = self.parameters();
-            let (own, coefficients) = C::prepare(&parameters, &stabilisation);
-            let absolute = M::prepare(&parameters);
-            [own.as_slice(), coefficients.as_slice(), absolute.as_slice()]
-                .concat()
-                .into_iter()
-                .map(Traced::place)
-                .collect::<Vec<_>>()
-        });
-        let (tape, places) = prepared;
-        self.constants = places
-            .iter()
-            .map(|&place| {
-                tape.constant(place)
-                    .map_or(Constant::Given, Constant::Known)
-            })
-            .collect();
-        self.program.structs[CONSTANTS].members =
-            vec![Member::array("value", "", places.len().max(1))];
-        let outputs = outputs(2, places.into_iter());
-        let given = self.constants.clone();
-        let is_given = |output: &Output| matches!(given[output.number], Constant::Given);
-        self.add(Function {
-            name: "prepare".to_owned(),
-            about: "Computes what follows from parameters and inputs.".to_owned(),
-            arguments: vec![
-                structure("parameters", PARAMETERS),
-                structure("inputs", INPUTS),
-                written("constants", CONSTANTS),
-            ],
-            outputs: outputs.filter(is_given).collect(),
-            tape,
-            returned: None,
-            is_public: true,
-            is_checked: false,
-        });
-        if !self.values[1].is_empty() {
-            self.taking_inputs();
-        }
-    }
-
-    fn taking_inputs(&mut self) {
-        let values = self.values.iter().flatten();
-        let count: usize = values.map(|value| value.places.len()).sum();
-        let (tape, places) = traced(P::IS_SINGLE, || {
-            let parameters = self.parameters();
-            let (own, coefficients, absolute) = self.constants_from(count);
-            let own = C::with_inputs(&parameters, own);
-            let mut taken = absolute;
-            M::take_inputs(&parameters, &mut taken);
-            [own.as_slice(), coefficients.as_slice(), taken.as_slice()].concat()
-        });
-        let is_written = |(number, place): (usize, Place)| {
-            let before = Operation::Argument(u32::try_from(count + number).unwrap_or(u32::MAX));
-            let is_given = matches!(self.constants.get(number), Some(Constant::Given));
-            (is_given && tape.at(place) != before).then_some(Output {
-                argument: 3,
-                number,
-                place,
-            })
-        };
-        let places = places.into_iter().map(Traced::place).enumerate();
-        let outputs: Vec<_> = places.filter_map(is_written).collect();
-        self.add(Function {
-            name: "set_inputs".to_owned(),
-            about: "Computes again what follows from inputs.".to_owned(),
-            arguments: vec![
-                structure("parameters", PARAMETERS),
-                structure("inputs", INPUTS),
-                // Read and written.
-                structure("constants", CONSTANTS),
-                written("constants", CONSTANTS),
-            ],
-            outputs,
-            tape,
-            returned: None,
-            is_public: true,
-            is_checked: false,
-        });
-    }
-
-    /// Constants, coefficients and the constants in absolute coordinates: known, or arguments from
-    /// a place on.
-    pub(crate) fn constants_from(&self, first: usize) -> AllConstants<P, M, C> {
-        let mut numbers = self
-            .constants
-            .iter()
-            .enumerate()
-            .map(|(k, constant)| match constant {
-                Constant::Known(number) => Traced::constant(*number),
-                Constant::Given => argument(first + k),
-            });
-        let mut own = ConstantsOf::<P, M, C>::zeros();
-        let mut coefficients = <C as Coordinates<M>>::Coefficients::<Traced<P>>::zeros();
-        let mut absolute = M::Constants::<Traced<P>>::zeros();
-        let slices = [
-            own.as_mut_slice(),
-            coefficients.as_mut_slice(),
-            absolute.as_mut_slice(),
-        ];
-        for place in slices.into_iter().flatten() {
-            if let Some(number) = numbers.next() {
-                *place = number;
-            }
-        }
-        (own, coefficients, absolute)
-    }
-
     /// How many numbers a function is given before the state.
     pub(crate) fn before_state(&self) -> usize {
         // There is none where the mechanism was refused.
@@ -425,7 +277,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     }
 
     /// Which numbers of a slope are given.
-    fn gives(&self) -> Vec<bool> {
+    pub(crate) fn gives(&self) -> Vec<bool> {
         let elements = self.elements.iter();
         elements.map(|element| element.of_slope.is_some()).collect()
     }
@@ -466,67 +318,6 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     #[must_use]
     pub fn without_branches(mut self) -> Self {
         self.has_branches = false;
-        self
-    }
-
-    /// A step of a method, as a [`Stepper`] takes it: the state is left as before where the step
-    /// leads to no finite state.
-    #[must_use]
-    pub fn step<K>(mut self, scheme: K) -> Self
-    where
-        K: for<'a> OneStep<Traced<P>, Called<'a, P, M, C>> + Scheme<Traced<P>>,
-    {
-        let Some(function) = self.program.function("evaluate") else {
-            return self;
-        };
-        let step_place = self.before_state() + TIMES + self.elements.len();
-        let (gives, constants) = (self.gives(), self.before_state());
-        let (tape, result) = traced(P::IS_SINGLE, || {
-            let (own, _, absolute) = self.constants_from(0);
-            let (time, state) = self.state();
-            let (rest, dt) = (argument(constants + 1), argument(step_place));
-            let mut system = Called::<P, M, C> {
-                function,
-                own: &own,
-                absolute: &absolute,
-                gives: &gives,
-                has_pivot: C::HAS_PIVOTS,
-                pivot: None,
-            };
-            let next = advanced(&scheme, &mut system, (time, &state), dt)?;
-            let [time, rest] = after(time, rest, dt);
-            let mut all = vec![time.place(), rest.place()];
-            all.extend(numbers(&next).into_iter().map(Traced::place));
-            Ok((system.pivot.map(Traced::place), all))
-        });
-        let (pivot, next) = match result {
-            Ok(result) => result,
-            Err(fault) => {
-                let fault: holonom::Fault = fault;
-                self.fault.get_or_insert(fault.into());
-                return self;
-            }
-        };
-        self.add(Function {
-            name: "step".to_owned(),
-            about: "Moves the state by one step of dt (s).".to_owned(),
-            arguments: vec![
-                structure("constants", CONSTANTS),
-                structure("state", STATE),
-                Argument {
-                    name: "dt",
-                    kind: Kind::Number,
-                    is_output: false,
-                },
-                // Read and written.
-                written("state", STATE),
-            ],
-            outputs: outputs(3, next.into_iter()).collect(),
-            tape,
-            returned: pivot,
-            is_public: true,
-            is_checked: true,
-        });
         self
     }
 
@@ -609,38 +400,6 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             _ => Ok(self),
         }
     }
-}
-
-/// A step from a state, as [`OneStep::step`] takes it.
-fn advanced<P: Precision, M: Mechanism, C: TracedCoordinates<M>, K>(
-    scheme: &K,
-    system: &mut Called<'_, P, M, C>,
-    (time, state): (Traced<P>, &StateOf<P, M, C>),
-    step: Traced<P>,
-) -> Result<StateOf<P, M, C>, holonom::Fault>
-where
-    K: for<'a> OneStep<Traced<P>, Called<'a, P, M, C>>,
-{
-    let mut slope = StateOf::<P, M, C>::zeros();
-    system.stage(time, state, &mut slope)?;
-    let start = StepStart {
-        time,
-        state,
-        slope: &slope,
-    };
-    let mut stages = Scheme::<Traced<P>>::stages(scheme, &slope);
-    let mut next = scheme.advanced(&mut Slopes::new(system), start, step, &mut stages)?;
-    system.renormalise(&mut next, None);
-    Ok(next)
-}
-
-/// The time after a step, and what its last digits leave over: Knuth, *The Art of Computer
-/// Programming* 2, section 4.2.2, theorem B, as the clock of a [`Stepper`].
-fn after<S: Scalar>(time: S, rest: S, step: S) -> [S; 2] {
-    let increment = step + rest;
-    let sum = time + increment;
-    let added = sum - time;
-    [sum, (time - (sum - added)) + (increment - added)]
 }
 
 /// How many pairs, further coordinates and rates a state has.

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod c;
+mod constants;
 mod derivative;
 mod error;
 mod export;
@@ -13,6 +14,7 @@ mod linear;
 mod names;
 mod number;
 mod program;
+mod step;
 mod system;
 mod tape;
 mod values;

@@ -192,8 +192,8 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         seeds.collect()
     }
 
-    /// Kernels with the computation of their constants in front of them, over parameters, inputs and
-    /// the state; and their numbers there.
+    /// Kernels with the computation of their constants in front of them, over parameters, inputs
+    /// and the state; and their numbers there.
     fn spliced(&self, kernels: &[(Function, Vec<Place>)]) -> (Tape, Vec<Place>) {
         let prepare = self
             .program

@@ -1,4 +1,5 @@
-//! What functions in C call beside those of `math.h`: the operations of a `Scalar`, to the last bit.
+//! What functions in C call beside those of `math.h`: the operations of a `Scalar`, to the last
+//! bit.
 
 use holonom::mechanism::{QUARTER_OF_DOUBLE, QUARTER_OF_SINGLE, TURN_OF_DOUBLE, TURN_OF_SINGLE};
 

@@ -1,0 +1,161 @@
+//! What follows from parameters and inputs alone, computed once.
+
+use holonom::mechanism::{Coordinates, Stabilisation, TracedCoordinates};
+use holonom::state::Array as _;
+use holonom::{Mechanism, Scalar as _};
+
+use crate::export::{CONSTANTS, Export, INPUTS, PARAMETERS, argument, outputs, structure, written};
+use crate::number::{Precision, Traced};
+use crate::program::{Function, Member, Output};
+use crate::system::ConstantsOf;
+use crate::tape::{Operation, Place, traced};
+
+/// Constants, coefficients and the constants in absolute coordinates.
+pub(crate) type AllConstants<P, M, C> = (
+    ConstantsOf<P, M, C>,
+    <C as Coordinates<M>>::Coefficients<Traced<P>>,
+    <M as Mechanism>::Constants<Traced<P>>,
+);
+
+/// A number that depends on parameters and inputs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Constant {
+    /// On none of them.
+    Known(f64),
+    Given,
+}
+
+impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
+    /// Parameters and inputs as arguments; what is neither stays the number that it is.
+    fn parameters(&self) -> M::Parameters<Traced<P>> {
+        let mut parameters = M::Parameters::<Traced<P>>::zeros();
+        let places = parameters.as_mut_slice().iter_mut();
+        for (place, &number) in places.zip(&self.defaults) {
+            *place = Traced::constant(number);
+        }
+        let given = self.values.iter().flatten().flat_map(|value| &value.places);
+        for (number, &place) in given.enumerate() {
+            if let Some(place) = parameters.as_mut_slice().get_mut(place) {
+                *place = argument(number);
+            }
+        }
+        parameters
+    }
+
+    /// The functions that compute constants, of parameters and inputs and of inputs alone.
+    pub(crate) fn preparation(&mut self, stabilisation: &Stabilisation<f64>) {
+        let number = Traced::<P>::constant;
+        let prepared = traced(P::IS_SINGLE, || {
+            let stabilisation = Stabilisation {
+                rate: number(stabilisation.rate),
+                position: number(stabilisation.position),
+                compliance: number(stabilisation.compliance),
+            };
+            let parameters = self.parameters();
+            let (own, coefficients) = C::prepare(&parameters, &stabilisation);
+            let absolute = M::prepare(&parameters);
+            [own.as_slice(), coefficients.as_slice(), absolute.as_slice()]
+                .concat()
+                .into_iter()
+                .map(Traced::place)
+                .collect::<Vec<_>>()
+        });
+        let (tape, places) = prepared;
+        self.constants = places
+            .iter()
+            .map(|&place| {
+                tape.constant(place)
+                    .map_or(Constant::Given, Constant::Known)
+            })
+            .collect();
+        self.program.structs[CONSTANTS].members =
+            vec![Member::array("value", "", places.len().max(1))];
+        let outputs = outputs(2, places.into_iter());
+        let given = self.constants.clone();
+        let is_given = |output: &Output| matches!(given[output.number], Constant::Given);
+        self.add(Function {
+            name: "prepare".to_owned(),
+            about: "Computes what follows from parameters and inputs.".to_owned(),
+            arguments: vec![
+                structure("parameters", PARAMETERS),
+                structure("inputs", INPUTS),
+                written("constants", CONSTANTS),
+            ],
+            outputs: outputs.filter(is_given).collect(),
+            tape,
+            returned: None,
+            is_public: true,
+            is_checked: false,
+        });
+        if !self.values[1].is_empty() {
+            self.taking_inputs();
+        }
+    }
+
+    fn taking_inputs(&mut self) {
+        let values = self.values.iter().flatten();
+        let count: usize = values.map(|value| value.places.len()).sum();
+        let (tape, places) = traced(P::IS_SINGLE, || {
+            let parameters = self.parameters();
+            let (own, coefficients, absolute) = self.constants_from(count);
+            let own = C::with_inputs(&parameters, own);
+            let mut taken = absolute;
+            M::take_inputs(&parameters, &mut taken);
+            [own.as_slice(), coefficients.as_slice(), taken.as_slice()].concat()
+        });
+        let is_written = |(number, place): (usize, Place)| {
+            let before = Operation::Argument(u32::try_from(count + number).unwrap_or(u32::MAX));
+            let is_given = matches!(self.constants.get(number), Some(Constant::Given));
+            (is_given && tape.at(place) != before).then_some(Output {
+                argument: 3,
+                number,
+                place,
+            })
+        };
+        let places = places.into_iter().map(Traced::place).enumerate();
+        let outputs: Vec<_> = places.filter_map(is_written).collect();
+        self.add(Function {
+            name: "set_inputs".to_owned(),
+            about: "Computes again what follows from inputs.".to_owned(),
+            arguments: vec![
+                structure("parameters", PARAMETERS),
+                structure("inputs", INPUTS),
+                // Read and written.
+                structure("constants", CONSTANTS),
+                written("constants", CONSTANTS),
+            ],
+            outputs,
+            tape,
+            returned: None,
+            is_public: true,
+            is_checked: false,
+        });
+    }
+
+    /// Constants, coefficients and the constants in absolute coordinates: known, or arguments from
+    /// a place on.
+    pub(crate) fn constants_from(&self, first: usize) -> AllConstants<P, M, C> {
+        let mut numbers = self
+            .constants
+            .iter()
+            .enumerate()
+            .map(|(k, constant)| match constant {
+                Constant::Known(number) => Traced::constant(*number),
+                Constant::Given => argument(first + k),
+            });
+        let mut own = ConstantsOf::<P, M, C>::zeros();
+        let mut coefficients = <C as Coordinates<M>>::Coefficients::<Traced<P>>::zeros();
+        let mut absolute = M::Constants::<Traced<P>>::zeros();
+        let slices = [
+            own.as_mut_slice(),
+            coefficients.as_mut_slice(),
+            absolute.as_mut_slice(),
+        ];
+        for place in slices.into_iter().flatten() {
+            if let Some(number) = numbers.next() {
+                *place = number;
+            }
+        }
+        (own, coefficients, absolute)
+    }
+}
