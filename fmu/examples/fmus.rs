@@ -80,7 +80,7 @@ where
         .simulation(formulation, DormandPrince::new(tight))
         .joint_coordinates()
         .run(0.0..=end, every(end / 100.0), |sample| {
-            let numbers = columns.iter().map(|(_, read)| read(&sample));
+            let numbers = columns.iter().map(|(_, read)| read(sample));
             let numbers: Vec<String> = numbers.map(|number| format!("{number:?}")).collect();
             lines += &format!("{:?},{}\n", sample.time(), numbers.join(","));
         })?;

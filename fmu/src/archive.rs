@@ -6,10 +6,13 @@ use zip::write::{SimpleFileOptions, ZipWriter};
 
 use crate::error::FmuError;
 
-/// Files by their paths, written one behind the other; the same bytes for the same files.
+/// A file by its path.
+pub(crate) type Entry = (String, Vec<u8>);
+
+/// Files, written one behind the other; the same bytes for the same files.
 pub(crate) fn write(
     to: impl Write + Seek,
-    files: impl IntoIterator<Item = (String, Vec<u8>)>,
+    files: impl IntoIterator<Item = Entry>,
 ) -> Result<(), FmuError> {
     let mut archive = ZipWriter::new(to);
     for (path, bytes) in files {

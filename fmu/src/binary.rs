@@ -7,6 +7,7 @@ use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{fs, process};
 
+use crate::archive::Entry;
 use crate::error::FmuError;
 
 /// With what a compiler such as that of GNU is called.
@@ -49,10 +50,7 @@ impl Drop for Folder {
 }
 
 /// The platform, and the library for it. `None` where there is no compiler of C.
-pub(crate) fn compiled(
-    name: &str,
-    files: &[(String, Vec<u8>)],
-) -> Result<Option<(String, Vec<u8>)>, FmuError> {
+pub(crate) fn compiled(name: &str, files: &[Entry]) -> Result<Option<(String, Vec<u8>)>, FmuError> {
     let folder = Folder::new()?;
     for (file, text) in files {
         fs::write(folder.0.join(file), text)?;

@@ -9,6 +9,7 @@ use holonom::mechanism::TracedCoordinates;
 use holonom::{Mechanism, Rk4, View};
 use holonom_export::{Double, Export, Interface, Source, Traced};
 
+use crate::archive::Entry;
 use crate::description::{self, Description};
 use crate::error::FmuError;
 use crate::variables::{self, Variable};
@@ -194,7 +195,7 @@ impl<M: Mechanism, C: TracedCoordinates<M>> Fmu<M, C> {
     }
 
     /// All files by their paths in the unit.
-    fn files(self) -> Result<(Vec<(String, Vec<u8>)>, Written), FmuError> {
+    fn files(self) -> Result<(Vec<Entry>, Written), FmuError> {
         let step = self.internal_step;
         if !(step > 0.0 && step.is_finite()) {
             return Err(FmuError::InternalStep { step });
@@ -248,7 +249,7 @@ fn sources(
     variables: &[Variable],
     token: &str,
     internal_step: f64,
-) -> Vec<(String, Vec<u8>)> {
+) -> Vec<Entry> {
     let name = &source.name;
     let model = model::header(interface, variables, token, internal_step);
     let mut files = vec![

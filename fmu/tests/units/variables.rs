@@ -6,7 +6,7 @@ use holonom::prelude::*;
 use holonom_fmu::{Fmu, FmuExt as _};
 use holonom_models::{CartPole, FourBar};
 
-/// A pendulum with a parameter and a texts that a document has to escape.
+/// A pendulum with a parameter, and texts that a document has to escape.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 struct Pendulum {
