@@ -1,0 +1,6 @@
+//! Functional mock-up units: what is in them, and their files in C, compiled and run.
+
+mod driven;
+mod refused;
+mod unit;
+mod variables;
