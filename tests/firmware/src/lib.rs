@@ -4,6 +4,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod balancer;
 #[cfg_attr(target_arch = "arm", path = "board/cortex_m.rs")]
 #[cfg_attr(target_arch = "riscv32", path = "board/riscv.rs")]
 mod board;
@@ -147,7 +148,11 @@ pub fn count_all<F: Tried<Number>>() -> Result<(), Fault> {
     count::<ByJoints<_, Swing, F>>()
 }
 
-fn count<T: Trial<Number>>() -> Result<(), Fault> {
+/// Counts what a trial takes.
+///
+/// # Errors
+/// Those of the trial.
+pub fn count<T: Trial<Number>>() -> Result<(), Fault> {
     counted::<T>(REPETITIONS)?;
     println!(" | ");
     Ok(())
