@@ -7,11 +7,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The sources that are held to it.
-const FOLDERS: [&str; 7] = [
+const FOLDERS: [&str; 9] = [
     "macros/src",
     "macros/engine/src",
     "runtime/src",
     "film/src",
+    "export/src",
+    "fmu/src",
     "urdf/src",
     "urdf/macros/src",
     "models/src",
