@@ -143,7 +143,7 @@ pub(crate) fn zero_if_finite_after<S: Scalar>(sum: S, elements: &[S]) -> S {
     elements.iter().fold(sum, add)
 }
 
-/// The same from -0 on, of many four places at once, as in [`greatest`]; for few, one sum after the
+/// The same from -0 on, of many four places at once, as in `greatest`; for few, one sum after the
 /// other is less than to bring four together.
 #[inline(always)]
 pub fn zero_if_finite<S: Scalar>(elements: &[S]) -> S {
