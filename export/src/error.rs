@@ -34,7 +34,9 @@ pub enum ExportError {
         /// The function.
         function: String,
     },
-    /// Two functions, or two fields, of one name.
+    /// Nothing of the mechanism moves, in the coordinates that were asked for.
+    Still,
+    /// Two functions, or a function and a struct, of one name.
     Name {
         /// The name.
         name: String,
@@ -64,6 +66,7 @@ impl fmt::Display for ExportError {
                 f,
                 "`{function}` compares numbers: what is exported has no branch on them; use `select` in the place of a comparison"
             ),
+            Self::Still => f.write_str("nothing of the mechanism moves: there are no rates to write"),
             Self::Name { name } => write!(f, "the name `{name}` is given twice"),
             Self::Step => f.write_str("a rollout takes steps: say `.step(Rk4)` before `.cuda()`"),
             Self::File(error) => error.fmt(f),

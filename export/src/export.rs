@@ -2,10 +2,11 @@
 
 use std::marker::PhantomData;
 
+use holonom::dynamics::Problem;
 use holonom::formulation::Formulation;
 use holonom::mechanism::{Terms, TracedCoordinates};
 use holonom::state::{Array, MovingState, Vector as _};
-use holonom::{Mechanism, Rk4, Stepper, View};
+use holonom::{Mechanism, Real, Rk4, StandardLagrange, Stepper, View};
 
 use crate::constants::Constant;
 use crate::error::ExportError;
@@ -38,7 +39,6 @@ const OWN: &[&str] = &[
     "status",
     "init",
     "rates",
-    "evaluate",
     "default_parameters",
     "default_inputs",
     "fused",
@@ -53,8 +53,17 @@ const OWN: &[&str] = &[
     "turn",
     "small_turn",
     "large_turn",
-    "state_is_finite",
+    "turns",
+    "small_turn",
+    "ulp",
     "slope_is_finite",
+    // What is written in upper case, where the name of the program is.
+    "OK",
+    "BAD_STEP",
+    "SINGULAR",
+    "NOT_FINITE",
+    "H",
+    "FUNCTION",
 ];
 
 /// A mechanism that is written as a program: its functions, one after the other, and then in C.
@@ -129,7 +138,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     #[must_use]
     pub fn new<F: Formulation<f64>>(mechanism: &M, formulation: F) -> Self {
         let mut export = Self {
-            name: snake(&identifier(M::REPORT.name)),
+            name: program_name(&snake(M::REPORT.name)),
             program: Program::default(),
             elements: Vec::new(),
             values: values::of(&M::REPORT),
@@ -169,8 +178,13 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         let limits = M::limits_of(&parameters, |limits| limits.joint);
         let limited = limits.as_ref().first();
         self.limited = limited.and_then(|&joint| Some(M::REPORT.joints.get(joint)?.name));
-        let stepper = Stepper::new(mechanism, formulation, Rk4)?.coordinates::<C>();
-        self.start_from(&stepper.initial_state()?);
+        if P::IS_SINGLE {
+            let stepper = Stepper::<Problem<_, _, f32>, _>::new(mechanism, StandardLagrange, Rk4)?;
+            self.start_from(&stepper.coordinates::<C>().initial_state()?);
+        } else {
+            let stepper = Stepper::<Problem<_, _>, _>::new(mechanism, StandardLagrange, Rk4)?;
+            self.start_from(&stepper.coordinates::<C>().initial_state()?);
+        }
         self.layout();
         self.preparation(&stabilisation);
         self.kernel::<F::Terms>();
@@ -178,9 +192,9 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         Ok(())
     }
 
-    fn start_from(&mut self, state: &C::State<f64>) {
+    fn start_from<S: Real>(&mut self, state: &C::State<S>) {
         self.start.clear();
-        state.for_each(|number| self.start.push(number));
+        state.for_each(|number| self.start.push(number.to_f64()));
     }
 
     /// The structs of the program.
@@ -286,14 +300,14 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     /// lower case.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
-        self.name = identifier(name);
+        self.name = program_name(name);
         self
     }
 
     /// Begins with this state of the bodies, in the place of the described one.
     #[must_use]
     pub fn starting_from(mut self, mechanism: &M, bodies: &M::State<f64>) -> Self {
-        let stepper = Stepper::new(mechanism, holonom::StandardLagrange, Rk4);
+        let stepper = Stepper::new(mechanism, StandardLagrange, Rk4);
         let state = stepper.and_then(|stepper| stepper.coordinates::<C>().state_of(bodies));
         match state {
             Ok(state) => self.start_from(&state),
@@ -325,7 +339,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     ///
     /// The closure is called once with numbers that write down what is computed with them. It may
     /// read what a [`View`] gives of such numbers, and combine it by the operations of a
-    /// [`Scalar`].
+    /// [`Scalar`](holonom::Scalar).
     #[must_use]
     pub fn reading(
         mut self,
@@ -367,16 +381,6 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 function: function.name.clone(),
             });
         }
-        let is_struct = |of: &Struct| of.name == function.name;
-        let is_own = function.is_public && OWN.contains(&function.name.as_str());
-        if self.program.function(&function.name).is_some()
-            || self.program.structs.iter().any(is_struct)
-            || is_own
-        {
-            self.fault.get_or_insert(ExportError::Name {
-                name: function.name.clone(),
-            });
-        }
         self.program.functions.push(function);
     }
 
@@ -386,6 +390,22 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self
     }
 
+    /// A name that is given twice.
+    fn taken(&self) -> Option<String> {
+        let structs = self.program.structs.iter().map(|of| of.name);
+        let known: Vec<&str> = structs.chain(OWN.iter().copied()).collect();
+        let mut before = Vec::new();
+        for function in &self.program.functions {
+            let name = function.name.as_str();
+            let is_own = ["evaluate", "step"].contains(&name) && !before.contains(&name);
+            if before.contains(&name) || (known.contains(&name) && !is_own) {
+                return Some(name.to_owned());
+            }
+            before.push(name);
+        }
+        None
+    }
+
     /// The program, if nothing is wrong with it.
     ///
     /// # Errors
@@ -393,6 +413,12 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     pub fn checked(mut self) -> Result<Self, ExportError> {
         if let Some(fault) = self.fault.take() {
             return Err(fault);
+        }
+        if self.program.structs[SLOPE].members.is_empty() {
+            return Err(ExportError::Still);
+        }
+        if let Some(name) = self.taken() {
+            return Err(ExportError::Name { name });
         }
         let steps = self.program.function("step").is_some();
         match self.limited {
@@ -444,6 +470,16 @@ pub(crate) fn outputs(
         number,
         place,
     })
+}
+
+/// The name of a program: a keyword of some compilers would begin with an underscore.
+fn program_name(name: &str) -> String {
+    let name = identifier(name);
+    if name.starts_with('_') {
+        format!("mechanism{name}").trim_end_matches('_').to_owned()
+    } else {
+        name
+    }
 }
 
 /// A name such as `FourBar` as `four_bar`.

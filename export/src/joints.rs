@@ -26,13 +26,18 @@ fn members(report: &JointReport) -> Vec<Member> {
     let mut names = Names::default();
     let motions = report.motions.iter().filter(|motion| is_single(motion));
     let members = motions.flat_map(|motion| {
-        let (name, unit) = (stem(report, motion), motion.unit());
+        let (name, unit) = (names.unique(&stem(report, motion)), motion.unit());
+        let mover = [motion.joint, motion.body];
+        let mover = mover.iter().find(|name| !name.is_empty()).unwrap_or(&"");
+        let what = if motion.freedom == Freedom::Slide {
+            "displacement"
+        } else {
+            "angle"
+        };
+        let rate = names.unique(&format!("{name}_rate"));
         [
-            Member::number(names.unique(&name), format!("{} ({unit})", motion.joint)),
-            Member::number(
-                names.unique(&format!("{name}_rate")),
-                format!("its rate ({unit}/s)"),
-            ),
+            Member::number(name, format!("{what} of {mover} ({unit})")),
+            Member::number(rate, format!("its rate ({unit}/s)")),
         ]
     });
     members.collect()
@@ -213,25 +218,32 @@ fn rates(report: &JointReport) -> usize {
 }
 
 /// A member for each rate of the joints.
-fn by_rates(report: &JointReport, about: &str) -> Vec<Member> {
+fn by_rates(report: &JointReport, [of_turn, of_slide]: [&str; 2]) -> Vec<Member> {
     let mut names = Names::default();
     let members = report.motions.iter().flat_map(|motion| {
         let name = stem(report, motion);
-        if motion.freedom == Freedom::Ball {
+        let unit = if motion.freedom == Freedom::Slide {
+            of_slide
+        } else {
+            of_turn
+        };
+        let parts = if motion.freedom == Freedom::Ball {
             ["x", "y", "z"]
                 .map(|axis| format!("{name}_{axis}"))
                 .to_vec()
         } else {
             vec![name]
-        }
+        };
+        parts.into_iter().map(move |name| (name, unit))
     });
-    let members = members.map(|name| Member::number(names.unique(&identifier(&name)), about));
+    let members =
+        members.map(|(name, unit)| Member::number(names.unique(&identifier(&name)), unit));
     members.collect()
 }
 
 impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
     /// The place of a struct with a number for each rate, which is made where it is not there.
-    fn structure_by_rates(&mut self, name: &'static str, about: &str, of_each: &str) -> usize {
+    fn structure_by_rates(&mut self, name: &'static str, about: &str, of_each: [&str; 2]) -> usize {
         let known = self
             .program
             .structs
@@ -255,9 +267,9 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
         M: HasInverse,
     {
         let about = "Accelerations of the rates of the joints.";
-        let given = self.structure_by_rates("accelerations", about, "rad/s^2 or m/s^2");
+        let given = self.structure_by_rates("accelerations", about, ["rad/s^2", "m/s^2"]);
         let about = "Efforts along the joints.";
-        let gives = self.structure_by_rates("efforts", about, "N m or N");
+        let gives = self.structure_by_rates("efforts", about, ["N m", "N"]);
         let (tape, places) = traced(P::IS_SINGLE, || {
             let (own, ..) = self.constants_from(0);
             let (time, state) = self.state();
@@ -346,7 +358,7 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
                 kernel: "derivatives",
             });
         };
-        let rates = by_rates(&M::JOINT_REPORT, "");
+        let rates = by_rates(&M::JOINT_REPORT, ["", ""]);
         let (rows, columns) = (rates.len(), 3 * rates.len() + inputs.len());
         let (tape, numbers) = traced(P::IS_SINGLE, || {
             let (own, ..) = self.constants_from(0);

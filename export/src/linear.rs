@@ -140,7 +140,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             let (name, at) = (&element.of_state.name, first + place);
             columns.push(if is_pair {
                 Column {
-                    name: name.replace("_cos", "_angle"),
+                    name: format!("{}_angle", name.strip_suffix("_cos").unwrap_or(name)),
                     seeds: vec![(at, Seed::Less(at + 1)), (at + 1, Seed::Argument(at))],
                 }
             } else {

@@ -2,8 +2,40 @@
 
 use std::collections::HashSet;
 
-/// Words of C, C++, CUDA and HIP that no identifier may be.
+/// Words of C, C++, CUDA and HIP that no identifier may be, and macros of compilers and of
+/// `math.h`.
 const WORDS: &[&str] = &[
+    "and_eq",
+    "or_eq",
+    "xor_eq",
+    "not_eq",
+    "wchar_t",
+    "char8_t",
+    "char16_t",
+    "char32_t",
+    "static_assert",
+    "static_cast",
+    "dynamic_cast",
+    "const_cast",
+    "reinterpret_cast",
+    "co_await",
+    "co_yield",
+    "co_return",
+    "consteval",
+    "constinit",
+    "linux",
+    "unix",
+    "HUGE_VAL",
+    "HUGE_VALF",
+    "INFINITY",
+    "NAN",
+    "errno",
+    "NULL",
+    "REAL",
+    "signbit",
+    "isnan",
+    "isinf",
+    "isfinite",
     "alignas",
     "alignof",
     "and",

@@ -16,6 +16,8 @@ pub(super) struct Body<'a> {
     text: &'a Text,
     program: &'a Program,
     function: &'a Function,
+    /// How the numbers of each argument are written behind it.
+    paths: Vec<Vec<Option<String>>>,
     /// How the numbers are written that the function is given.
     given: Vec<String>,
     /// How each place is written, once it is known.
@@ -56,12 +58,17 @@ pub(super) fn body(
     function: &Function,
     support: &mut BTreeSet<Support>,
 ) -> String {
-    let is_written = |output: &&Output| match function.arguments[output.argument].kind {
-        Kind::Struct(place) => {
-            let paths = text.paths(program, place);
-            paths.get(output.number).is_some_and(Option::is_some)
-        }
-        Kind::Number => false,
+    let paths: Vec<_> = function
+        .arguments
+        .iter()
+        .map(|argument| match argument.kind {
+            Kind::Struct(place) => text.paths(program, place),
+            Kind::Number => Vec::new(),
+        })
+        .collect();
+    let is_written = |output: &&Output| {
+        let path = paths[output.argument].get(output.number);
+        path.is_some_and(Option::is_some)
     };
     let outputs = function.outputs.iter().filter(is_written);
     let outputs = outputs.map(|output| output.place).chain(function.returned);
@@ -91,6 +98,7 @@ pub(super) fn body(
         text,
         program,
         function,
+        paths,
         given,
         names: vec![String::new(); needed.len()],
         needed,
@@ -111,9 +119,14 @@ impl Body<'_> {
         let function = self.function;
         if function.is_checked {
             let (upper, zero) = (&self.text.upper, self.text.number(0.0));
+            let mut condition = format!("!(dt > {zero})");
+            if self.text.has_time {
+                self.support.insert(Support::Resolution);
+                condition += &format!(" || dt < {}(state->time)", self.text.named("ulp"));
+            }
             let _ = writeln!(
                 self.lines,
-                "    if (!(dt > {zero})) {{\n        return {upper}_BAD_STEP;\n    }}"
+                "    if ({condition}) {{\n        return {upper}_BAD_STEP;\n    }}"
             );
         }
         let mut calls = function.tape.calls().iter().enumerate().peekable();
@@ -151,11 +164,8 @@ impl Body<'_> {
         let mut writes = Vec::new();
         for output in &function.outputs {
             let argument = &function.arguments[output.argument];
-            let Kind::Struct(of) = argument.kind else {
-                continue;
-            };
-            let paths = self.text.paths(self.program, of);
-            let Some(path) = paths.get(output.number).and_then(Option::as_ref) else {
+            let path = self.paths[output.argument].get(output.number);
+            let Some(path) = path.and_then(Option::as_ref) else {
                 continue;
             };
             let target = format!("{}->{path}", argument.name);

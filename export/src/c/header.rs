@@ -44,7 +44,7 @@ typedef {precision} {n}_real;
 /* What became of a call. States that it was to write are as before unless it is {u}_OK. */
 typedef enum {n}_status {{
     {u}_OK = 0,
-    /* A step that is not positive. */
+    /* A step that is not positive, or below the resolution of the time where laws depend on it. */
     {u}_BAD_STEP = 1,
     /* Equations depend on each other here: their solution has no digit left. */
     {u}_SINGULAR = 2,
@@ -70,7 +70,8 @@ fn declare(text: &Text, of: &Struct, header: &mut String) {
         return;
     }
     let name = text.named(of.name);
-    let _ = writeln!(header, "/* {} */\ntypedef struct {name} {{", of.about);
+    let about = comment(&of.about);
+    let _ = writeln!(header, "/* {about} */\ntypedef struct {name} {{");
     for member in &of.members {
         let length = member
             .length
@@ -78,7 +79,7 @@ fn declare(text: &Text, of: &Struct, header: &mut String) {
         let about = if member.about.is_empty() {
             String::new()
         } else {
-            format!(" /* {} */", member.about)
+            format!(" /* {} */", comment(&member.about))
         };
         let _ = writeln!(
             header,
@@ -88,6 +89,12 @@ fn declare(text: &Text, of: &Struct, header: &mut String) {
         );
     }
     let _ = writeln!(header, "}} {name};\n");
+}
+
+/// A text within a comment: it neither ends there nor begins another one.
+pub(super) fn comment(text: &str) -> String {
+    let line = text.replace(['\n', '\r', '\\'], " ");
+    line.replace("*/", "* /").replace("/*", "/ *")
 }
 
 /// What a function of the program that users call begins with.
@@ -138,7 +145,7 @@ fn functions(text: &Text, program: &Program, header: &mut String) {
         let _ = writeln!(
             header,
             "/* {} */\n{};\n",
-            function.about,
+            comment(&function.about),
             signature(text, program, function)
         );
     }

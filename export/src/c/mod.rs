@@ -68,6 +68,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             has_pivot: export.has_pivot,
             least_pivot: export.least_pivot,
             is_single: P::IS_SINGLE,
+            has_time: M::REPORT.time.is_anywhere(),
             has_branches: export.has_branches,
             mechanism: M::REPORT.name,
         };
@@ -99,6 +100,8 @@ struct Text {
     has_pivot: bool,
     least_pivot: f64,
     is_single: bool,
+    /// Whether the time itself stands in the equations.
+    has_time: bool,
     has_branches: bool,
     mechanism: &'static str,
 }

@@ -8,7 +8,7 @@ use holonom::mechanism::TracedCoordinates;
 
 use super::Text;
 use super::body::body;
-use super::header::signature;
+use super::header::{comment, signature};
 use crate::export::{CONSTANTS, Export, INPUTS, PARAMETERS, SLOPE, STATE};
 use crate::number::Precision;
 use crate::program::Struct;
@@ -31,7 +31,7 @@ pub(super) fn source<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
         let about = if function.is_public {
             String::new()
         } else {
-            format!("/* {} */\n", function.about)
+            format!("/* {} */\n", comment(&function.about))
         };
         let signature = signature(text, program, function);
         let unused = unused(text, program, function, &written);
@@ -65,12 +65,13 @@ pub(super) fn source<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
 #define REAL(x) (({n}_real)(x))
 
 {helpers}
-{functions}#undef REAL
+{functions}{no_more}#undef REAL
 ",
         mechanism = text.mechanism,
         version = env!("CARGO_PKG_VERSION"),
         n = text.name,
         helpers = helpers.join("\n"),
+        no_more = if export.has_few_turns() { NO_MORE } else { "" },
         alone = if export.has_few_turns() { ALONE } else { "" },
     )
 }
@@ -80,9 +81,17 @@ pub(super) fn source<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
 const ALONE: &str = "\
 /* Numbers that gcc puts side by side in one register pass through memory to be taken apart. */
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && !defined(__HIPCC__)
+#pragma GCC push_options
 #pragma GCC optimize (\"no-tree-slp-vectorize\")
 #endif
 
+";
+
+/// The end of [`ALONE`].
+const NO_MORE: &str = "\
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && !defined(__HIPCC__)
+#pragma GCC pop_options
+#endif
 ";
 
 /// Statements that say of arguments that they are not used.
@@ -100,10 +109,16 @@ fn unused(
                 || declared.ends_with(&format!(" {name}"))
         })
     };
+    // A member of that name is no use.
     let is_used = |name: &str| {
-        written
-            .split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
-            .any(|word| word == name)
+        written.match_indices(name).any(|(at, _)| {
+            let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+            let (before, after) = (&written[..at], &written[at + name.len()..]);
+            !before.ends_with(is_word)
+                && !before.ends_with("->")
+                && !before.ends_with('.')
+                && !after.starts_with(is_word)
+        })
     };
     let mut unused: Vec<&str> = names
         .filter(is_declared)

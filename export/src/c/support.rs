@@ -18,6 +18,7 @@ pub(super) enum Support {
     Exponential,
     Angle,
     Rounding,
+    Resolution,
     Turn,
     Turns,
 }
@@ -34,6 +35,7 @@ impl Support {
             Self::Exponential => "exp",
             Self::Angle => "atan2",
             Self::Rounding => "round",
+            Self::Resolution => "ulp",
             Self::Turn => "turn",
             Self::Turns => "turns",
         }
@@ -92,6 +94,17 @@ static {u}_FUNCTION {real} {n}_atan2({real} y, {real} x)
 {{
     return sizeof(y) == sizeof(float) ? ({real})atan2f((float)y, (float)x)
                                       : ({real})atan2((double)y, (double)x);
+}}
+"
+            ),
+            Self::Resolution => format!(
+                "\
+/* The distance from |x| to the next larger number. */
+static {u}_FUNCTION {real} {n}_ulp({real} x)
+{{
+    return sizeof(x) == sizeof(float)
+               ? ({real})(nextafterf(fabsf((float)x), (float)HUGE_VAL) - fabsf((float)x))
+               : ({real})(nextafter(fabs((double)x), HUGE_VAL) - fabs((double)x));
 }}
 "
             ),

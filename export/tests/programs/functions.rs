@@ -5,7 +5,7 @@ use crate::compiled::{Program, random_state};
 use holonom::mechanism::{HasInverse as _, HasMassMatrix as _, Relative};
 use holonom::prelude::*;
 use holonom::state::Vector;
-use holonom_export::{Double, Export, ExportError, ExportExt as _, Source};
+use holonom_export::{Double, Export, ExportError, ExportExt as _, Single, Source};
 use holonom_models::{FourBar, Ur5};
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
@@ -267,11 +267,63 @@ fn what_cannot_be_exported_is_named() {
     });
     let refused = compared.c().expect_err("it compares").to_string();
     assert!(refused.contains("`side` compares numbers"), "{refused}");
+    let before = bars
+        .export(StandardLagrange)
+        .reading("jacobian", "", |view| view.time());
+    let refused = before
+        .derivatives()
+        .c()
+        .expect_err("a struct has the name")
+        .to_string();
+    assert_eq!(refused, "the name `jacobian` is given twice");
     let twice = bars
         .export(StandardLagrange)
         .reading("state", "", |view| view.time());
     let refused = twice.c().expect_err("the name is taken").to_string();
     assert_eq!(refused, "the name `state` is given twice");
+    assert!(matches!(
+        Stuck::default().export(StandardLagrange).c(),
+        Err(ExportError::Still)
+    ));
+}
+
+/// Nothing moves by its joints.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "joints")]
+struct Stuck {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.0])]
+    block: Body,
+    #[joint(between = [ground, block], point = [0.0, 0.0, 0.0])]
+    weld: Fixed,
+}
+
+#[test]
+fn what_users_write_stays_within_comments() {
+    let export = FourBar::default()
+        .export(StandardLagrange)
+        .named("commented");
+    let about = "a ratio a*/b, and /* more\nof it \\";
+    let source = export.reading("ratio", about, |view| view.time()).c();
+    let source = source.expect("exported");
+    assert!(
+        source
+            .header
+            .contains("/* a ratio a* /b, and / * more of it   */")
+    );
+    let _ = Program::compiled(&source, "int main(void) { return 0; }\n");
+}
+
+#[test]
+fn a_start_in_single_precision_is_that_of_rust() {
+    let export = Export::<FourBar, Single, Relative>::new(&FourBar::default(), StandardLagrange);
+    let source = export.named("begun").c().expect("exported");
+    let program = program(&source, "", "", "begun_init(&state);", "state");
+    let stepper = Stepper::<Problem<_, _, f32>, _>::new(&FourBar::default(), StandardLagrange, Rk4);
+    let stepper = stepper.expect("described").joint_coordinates();
+    let start = stepper.initial_state().expect("described");
+    let mut numbers = vec![0.0_f32; 2];
+    start.for_each(|number| numbers.push(number));
+    assert_eq!(program.run(&numbers), numbers);
 }
 
 /// The mechanism of the README.
