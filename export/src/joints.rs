@@ -260,7 +260,8 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
     }
 
     /// Inverse dynamics: the efforts along the joints (N m, N) that have to act beside the
-    /// described forces for these accelerations. In a mechanism with loops, those of its tree alone.
+    /// described forces for these accelerations. In a mechanism with loops, those of its tree
+    /// alone.
     #[must_use]
     pub fn inverse_dynamics(mut self) -> Self
     where

@@ -12,8 +12,8 @@ use crate::system::{Called, StateOf, numbers};
 use crate::tape::traced;
 
 impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
-    /// A step of a method, as a [`Stepper`](holonom::Stepper) takes it: the state is left as before where the step
-    /// leads to no finite state.
+    /// A step of a method, as a [`Stepper`](holonom::Stepper) takes it: the state is left as
+    /// before where the step leads to no finite state.
     #[must_use]
     pub fn step<K>(mut self, scheme: K) -> Self
     where

@@ -36,7 +36,8 @@ pub trait TracedCoordinates<M: Mechanism>: Coordinates<M> {
         stabilisation: &Stabilisation<S>,
     ) -> (Self::Constants<S>, Self::Coefficients<S>);
 
-    /// The constants with these parameters, of which those that depend on inputs are computed again.
+    /// The constants with these parameters, of which those that depend on inputs are computed
+    /// again.
     fn with_inputs<S: Scalar>(
         parameters: &M::Parameters<S>,
         constants: Self::Constants<S>,

@@ -30,7 +30,7 @@ const LONG: [(&str, &str, usize); 11] = [
     ("macros/engine/src/coordinates/links.rs", "carry", 137),
     ("macros/engine/src/emit/assembly.rs", "emit", 105),
     ("macros/engine/src/emit/inputs.rs", "inputs_of", 113),
-    ("macros/engine/src/emit/report.rs", "report", 128),
+    ("macros/engine/src/emit/report.rs", "report", 125),
     ("macros/engine/src/rank/mod.rs", "judged", 129),
     ("macros/engine/src/symbolic/scene.rs", "on", 158),
     ("runtime/src/independent/partition.rs", "eliminated", 105),

@@ -8,7 +8,7 @@ use quote::quote;
 use super::joint::kind;
 use crate::coordinates::spanning::Spanning;
 use crate::model::mechanism::Layout;
-use crate::model::{Element, Model, ParameterKind, Rank, Shape, ShapeKind};
+use crate::model::{Element, Model, ParameterKind, Rank, RunTimeValue, Shape, ShapeKind};
 use crate::plan::Plan;
 use crate::plan::kernels::Kernels;
 use crate::plan::readouts::Marker;
@@ -227,11 +227,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let (name, body) = (point.name.to_string(), option(point.body));
         quote!(#facade::__private::PointInfo { name: #name, body: #body })
     });
-    let values = model.values.iter().map(|value| {
-        let (name, is_input) = (value.name.to_string(), value.is_input);
-        let further = value.kind.further();
-        quote!(#facade::__private::ValueInfo { name: #name, is_input: #is_input, further: #further })
-    });
+    let values = model.values.iter().map(|value| value_info(value, facade));
     let states = state_infos(model, layout.coordinates + layout.auxiliaries, facade);
     let bodies_and_shapes = model.bodies.iter().enumerate();
     let shapes = bodies_and_shapes.flat_map(|(place, body)| {
@@ -312,6 +308,13 @@ fn rank(rank: &Rank, facade: &TokenStream) -> TokenStream {
         Rank::NotDecided => quote!(#facade::__private::Rank::NotDecided),
         Rank::NotAssembled => quote!(#facade::__private::Rank::NotAssembled),
     }
+}
+
+/// What a report has of a parameter or an input.
+fn value_info(value: &RunTimeValue, facade: &TokenStream) -> TokenStream {
+    let (name, is_input) = (value.name.to_string(), value.is_input);
+    let further = value.kind.further();
+    quote!(#facade::__private::ValueInfo { name: #name, is_input: #is_input, further: #further })
 }
 
 /// The user's own states, of which the first has this place.
