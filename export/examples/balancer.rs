@@ -1,5 +1,5 @@
-//! Writes the balancer of the guide's page on controllers into a folder, in single precision:
-//! `balancer.h` and `balancer.c`, with the angle of its pivot as a reading. `tests/firmware/run`
+//! Writes the balancer of the guide's page on controllers into a folder, in single precision.
+//! `balancer.h` and `balancer.c` have the angle of its pivot as a reading. `tests/firmware/run`
 //! compiles them for a Cortex-M4F.
 
 use holonom::mechanism::Relative;

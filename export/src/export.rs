@@ -366,9 +366,9 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self
     }
 
-    /// How many additions, multiplications and functions of numbers a function takes by its name,
-    /// such as `evaluate`, without those of the functions that it calls; `None` where there is none
-    /// of that name.
+    /// How many additions, multiplications and functions of numbers a function takes, by its name
+    /// such as `evaluate`. Those of the functions that it calls are left out. `None` where there is
+    /// none of that name.
     #[must_use]
     pub fn operations(&self, function: &str) -> Option<usize> {
         let place = self.program.function(function)?;

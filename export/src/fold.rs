@@ -3,6 +3,8 @@
 //! A product with zero is no zero where the other number is not finite, and the sum of two zeros
 //! has the sign of neither: such operations stay.
 
+use holonom::Scalar;
+
 use crate::tape::{Binary, Operation, Place, Tape, Unary};
 
 /// An operation, looked at.
@@ -35,6 +37,11 @@ pub(crate) fn folded(tape: &mut Tape, operation: Operation) -> Folded {
     }
 }
 
+/// A constant as `f32` has it.
+fn rounded(x: f64) -> f32 {
+    Scalar::constant(x)
+}
+
 /// A number that was computed in the type of the tape.
 fn computed(tape: &mut Tape, in_double: f64, in_single: impl FnOnce() -> f32) -> Folded {
     let value = if tape.is_single() {
@@ -45,10 +52,6 @@ fn computed(tape: &mut Tape, in_double: f64, in_single: impl FnOnce() -> f32) ->
     Known(tape.number(value))
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "constants are rounded to the type of the tape as those of `f32` are"
-)]
 fn unary(tape: &mut Tape, function: Unary, of: Place) -> Folded {
     let operation = Operation::Unary(function, of);
     if let (Unary::Negation, Operation::Unary(Unary::Negation, inner)) = (function, tape.at(of)) {
@@ -57,7 +60,7 @@ fn unary(tape: &mut Tape, function: Unary, of: Place) -> Folded {
     let Some(x) = tape.constant(of) else {
         return Folded::Operation(operation);
     };
-    let y = x as f32;
+    let y = rounded(x);
     match function {
         Unary::Negation => computed(tape, -x, || -y),
         Unary::Reciprocal => computed(tape, 1.0 / x, || 1.0 / y),
@@ -78,14 +81,10 @@ fn is_zero(number: Option<f64>, is_negative: bool) -> bool {
     number.is_some_and(|number| number == 0.0 && number.is_sign_negative() == is_negative)
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "constants are rounded to the type of the tape as those of `f32` are"
-)]
 fn binary(tape: &mut Tape, function: Binary, [a, b]: [Place; 2]) -> Folded {
     let (x, y) = (tape.constant(a), tape.constant(b));
     if let (Some(x), Some(y)) = (x, y) {
-        let (p, q) = (x as f32, y as f32);
+        let (p, q) = (rounded(x), rounded(y));
         match function {
             Binary::Sum => return computed(tape, x + y, || p + q),
             Binary::Difference => return computed(tape, x - y, || p - q),

@@ -11,7 +11,7 @@ use crate::export::{CONSTANTS, Export, STATE, TIMES, argument, outputs, structur
 use crate::layout::stem;
 use crate::names::{Names, identifier};
 use crate::number::{Precision, Traced};
-use crate::program::{Function, Member, Output, Struct};
+use crate::program::{Argument, Function, Member, Output, Struct};
 use crate::tape::traced;
 
 /// Where the numbers of a motion are in a state.
@@ -259,6 +259,55 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
         })
     }
 
+    /// Adds a function of the constants and a state, and of what else it is given, that writes a
+    /// struct. The kernel takes the place of the first number of what else is given, and gives the
+    /// numbers of the struct in their order.
+    fn with_kernel(
+        mut self,
+        [name, about]: [&str; 2],
+        given: Option<Argument>,
+        gives: Argument,
+        kernel: impl FnOnce(
+            (
+                &M::JointConstants<Traced<P>>,
+                Traced<P>,
+                &M::JointState<Traced<P>>,
+            ),
+            usize,
+        ) -> Vec<Traced<P>>,
+    ) -> Self {
+        let (tape, numbers) = traced(P::IS_SINGLE, || {
+            let (own, ..) = self.constants_from(0);
+            let (time, state) = self.state();
+            let first = self.before_state() + TIMES + self.elements.len();
+            kernel((&own, time, &state), first)
+        });
+        let mut arguments = vec![structure("constants", CONSTANTS), structure("state", STATE)];
+        arguments.extend(given);
+        let places = numbers.into_iter().map(Traced::place);
+        self.add(Function {
+            name: name.to_owned(),
+            about: about.to_owned(),
+            outputs: outputs(arguments.len(), places).collect(),
+            arguments: arguments.into_iter().chain([gives]).collect(),
+            tape,
+            returned: None,
+            is_public: true,
+            is_checked: false,
+        });
+        self
+    }
+
+    /// The place of a new struct of one array, row by row.
+    fn matrix(&mut self, name: &'static str, about: String, entries: usize) -> usize {
+        self.program.structs.push(Struct {
+            name,
+            about,
+            members: vec![Member::array("value", "row by row", entries)],
+        });
+        self.program.structs.len() - 1
+    }
+
     /// Inverse dynamics: the efforts along the joints (N m, N) that have to act beside the
     /// described forces for these accelerations. In a mechanism with loops, those of its tree
     /// alone.
@@ -271,38 +320,21 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
         let given = self.structure_by_rates("accelerations", about, ["rad/s^2", "m/s^2"]);
         let about = "Efforts along the joints.";
         let gives = self.structure_by_rates("efforts", about, ["N m", "N"]);
-        let (tape, places) = traced(P::IS_SINGLE, || {
-            let (own, ..) = self.constants_from(0);
-            let (time, state) = self.state();
-            let first = self.before_state() + TIMES + self.elements.len();
-            let mut accelerations = M::JointVelocities::<Traced<P>>::zeros();
-            let places = accelerations.as_mut_slice().iter_mut();
-            places
-                .enumerate()
-                .for_each(|(k, place)| *place = argument(first + k));
-            let efforts = M::inverse_dynamics(&own, time, &state, &accelerations);
-            efforts
-                .as_slice()
-                .iter()
-                .map(|effort| effort.place())
-                .collect::<Vec<_>>()
-        });
-        self.add(Function {
-            name: "inverse_dynamics".to_owned(),
-            about: "The efforts that have to act beside the described forces.".to_owned(),
-            arguments: vec![
-                structure("constants", CONSTANTS),
-                structure("state", STATE),
-                structure("accelerations", given),
-                written("efforts", gives),
+        self.with_kernel(
+            [
+                "inverse_dynamics",
+                "The efforts that have to act beside the described forces.",
             ],
-            outputs: outputs(3, places.into_iter()).collect(),
-            tape,
-            returned: None,
-            is_public: true,
-            is_checked: false,
-        });
-        self
+            Some(structure("accelerations", given)),
+            written("efforts", gives),
+            |(constants, time, state), first| {
+                let mut accelerations = M::JointVelocities::<Traced<P>>::zeros();
+                let places = accelerations.as_mut_slice().iter_mut().enumerate();
+                places.for_each(|(k, place)| *place = argument(first + k));
+                let efforts = M::inverse_dynamics(constants, time, state, &accelerations);
+                efforts.as_slice().to_vec()
+            },
+        )
     }
 
     /// The mass matrix in the rates of the joints, row by row; in a mechanism with loops, that of
@@ -313,37 +345,17 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
         M: HasMassMatrix,
     {
         let count = rates(&M::JOINT_REPORT);
-        let matrix = self.program.structs.len();
-        self.program.structs.push(Struct {
-            name: "mass",
-            about: "The mass matrix in the rates of the joints, row by row.".to_owned(),
-            members: vec![Member::array("value", "", count * count)],
-        });
-        let (tape, entries) = traced(P::IS_SINGLE, || {
-            let (own, ..) = self.constants_from(0);
-            let (time, state) = self.state();
-            let matrix = M::mass_matrix(&own, time, &state);
-            matrix
-                .as_slice()
-                .iter()
-                .map(|entry| entry.place())
-                .collect::<Vec<_>>()
-        });
-        self.add(Function {
-            name: "mass_matrix".to_owned(),
-            about: "The mass matrix in a state.".to_owned(),
-            arguments: vec![
-                structure("constants", CONSTANTS),
-                structure("state", STATE),
-                written("mass", matrix),
-            ],
-            outputs: outputs(2, entries.into_iter()).collect(),
-            tape,
-            returned: None,
-            is_public: true,
-            is_checked: false,
-        });
-        self
+        let about = "The mass matrix in the rates of the joints.".to_owned();
+        let matrix = self.matrix("mass", about, count * count);
+        self.with_kernel(
+            ["mass_matrix", "The mass matrix in a state."],
+            None,
+            written("mass", matrix),
+            |(constants, time, state), _| {
+                let matrix = M::mass_matrix(constants, time, state);
+                matrix.as_slice().to_vec()
+            },
+        )
     }
 
     /// Derivatives of the accelerations of the joints' rates: by the positions of the joints, by
@@ -361,49 +373,33 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
         };
         let rates = by_rates(&M::JOINT_REPORT, ["", ""]);
         let (rows, columns) = (rates.len(), 3 * rates.len() + inputs.len());
-        let (tape, numbers) = traced(P::IS_SINGLE, || {
-            let (own, ..) = self.constants_from(0);
-            let (time, state) = self.state();
-            let numbers = M::derivatives(&own, time, &state);
-            numbers
-                .as_slice()
-                .iter()
-                .map(|number| number.place())
-                .collect::<Vec<_>>()
-        });
-        let entry = |k: usize| {
-            let (row, column) = (k / columns, k % columns);
-            numbers.get(rows * (1 + column) + row).copied()
-        };
         let names: Vec<&str> = rates.iter().map(|rate| rate.name.as_str()).collect();
-        let inputs = inputs
-            .iter()
-            .filter_map(|&input| Some(M::REPORT.values.get(input)?.name));
+        let inputs = inputs.iter();
+        let inputs = inputs.filter_map(|&input| Some(M::REPORT.values.get(input)?.name));
+        let inputs: Vec<&str> = inputs.collect();
         let about = format!(
-            "Derivatives of the accelerations of {}, a row each: by the positions of these, by their rates, by efforts along them, and by the inputs {}.",
+            "Derivatives of the accelerations of {}, a row each. Columns: by the positions of these, by their rates, by efforts along them, and by the inputs {}.",
             names.join(", "),
-            inputs.collect::<Vec<_>>().join(", ")
+            inputs.join(", ")
         );
-        let place = self.program.structs.len();
-        self.program.structs.push(Struct {
-            name: "joint_jacobian",
-            about,
-            members: vec![Member::array("value", "row by row", rows * columns)],
-        });
-        self.add(Function {
-            name: "joint_derivatives".to_owned(),
-            about: "Derivatives of the accelerations of the joints in a state.".to_owned(),
-            arguments: vec![
-                structure("constants", CONSTANTS),
-                structure("state", STATE),
-                written("jacobian", place),
+        let jacobian = self.matrix("joint_jacobian", about, rows * columns);
+        self.with_kernel(
+            [
+                "joint_derivatives",
+                "Derivatives of the accelerations of the joints in a state.",
             ],
-            outputs: outputs(2, (0..rows * columns).filter_map(entry)).collect(),
-            tape,
-            returned: None,
-            is_public: true,
-            is_checked: false,
-        });
-        self
+            None,
+            written("jacobian", jacobian),
+            |(constants, time, state), _| {
+                // Columns stand one after the other, behind the accelerations.
+                let numbers = M::derivatives(constants, time, state);
+                let numbers = numbers.as_slice();
+                let entries = (0..rows).flat_map(|row| {
+                    let column = move |column| numbers.get(rows * (1 + column) + row).copied();
+                    (0..columns).filter_map(column)
+                });
+                entries.collect()
+            },
+        )
     }
 }

@@ -30,7 +30,7 @@ impl Precision for Single {
     const IS_SINGLE: bool = true;
 }
 
-/// A number that writes down what is computed with it: a function that is called once with such
+/// A number that writes down what is computed with it. A function that is called once with such
 /// numbers *is* its own text, as long as it has no branch on them.
 ///
 /// Numbers cannot be compared. A comparison for equality, which every [`Scalar`] has, is noted, and

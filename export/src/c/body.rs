@@ -33,22 +33,16 @@ pub(super) struct Body<'a> {
     support: &'a mut BTreeSet<Support>,
 }
 
-impl Text {
-    /// A number of the type of the program.
-    #[expect(
-        clippy::unused_self,
-        reason = "a number is written as the text has numbers"
-    )]
-    pub(super) fn number(&self, value: f64) -> String {
-        if value.is_infinite() {
-            let sign = if value > 0.0 { "" } else { "-" };
-            return format!("REAL({sign}HUGE_VAL)");
-        }
-        if value.is_nan() {
-            return "(REAL(0.0) / REAL(0.0))".to_owned();
-        }
-        format!("REAL({value:?})")
+/// A number of the type of the program.
+pub(super) fn number(value: f64) -> String {
+    if value.is_infinite() {
+        let sign = if value > 0.0 { "" } else { "-" };
+        return format!("REAL({sign}HUGE_VAL)");
     }
+    if value.is_nan() {
+        return "(REAL(0.0) / REAL(0.0))".to_owned();
+    }
+    format!("REAL({value:?})")
 }
 
 /// The statements of a function, and what it calls of [`Support`].
@@ -118,7 +112,7 @@ impl Body<'_> {
     fn write(&mut self) {
         let function = self.function;
         if function.is_checked {
-            let (upper, zero) = (&self.text.upper, self.text.number(0.0));
+            let (upper, zero) = (&self.text.upper, number(0.0));
             let mut condition = format!("!(dt > {zero})");
             if self.text.has_time {
                 self.support.insert(Support::Resolution);
@@ -187,7 +181,7 @@ impl Body<'_> {
     fn check(&mut self) {
         let (function, upper) = (self.function, &self.text.upper);
         if let Some(pivot) = function.returned {
-            let (pivot, least) = (self.operand(pivot), self.text.number(self.text.least_pivot));
+            let (pivot, least) = (self.operand(pivot), number(self.text.least_pivot));
             let _ = writeln!(
                 self.lines,
                 "    if ({pivot} < {least}) {{\n        return {upper}_SINGULAR;\n    }}"
@@ -199,7 +193,7 @@ impl Body<'_> {
             format!("({name} - {name})")
         });
         let sum = balanced(&differences.collect::<Vec<_>>());
-        let (real, zero) = (self.text.real(), self.text.number(0.0));
+        let (real, zero) = (self.text.real(), number(0.0));
         let _ = writeln!(
             self.lines,
             "    const {real} zero =\n        {sum};\n    if (!(zero <= {zero})) {{\n        return {upper}_NOT_FINITE;\n    }}"
@@ -230,7 +224,7 @@ impl Body<'_> {
     fn statement(&mut self, place: usize, operation: Operation) {
         let expression = match operation {
             Operation::Constant(bits) => {
-                self.names[place] = self.text.number(f64::from_bits(bits));
+                self.names[place] = number(f64::from_bits(bits));
                 return;
             }
             Operation::Argument(number) => {

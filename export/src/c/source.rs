@@ -7,7 +7,7 @@ use holonom::Mechanism;
 use holonom::mechanism::TracedCoordinates;
 
 use super::Text;
-use super::body::body;
+use super::body::{body, number};
 use super::header::{comment, signature};
 use crate::export::{CONSTANTS, Export, INPUTS, PARAMETERS, SLOPE, STATE};
 use crate::number::Precision;
@@ -76,8 +76,8 @@ pub(super) fn source<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
     )
 }
 
-/// What keeps gcc from putting few numbers side by side: by `benches/c/run`, a step of a four-bar
-/// takes 106 ns with it and 152 without. Of a UR5, which has six turns, 400 and 357.
+/// What keeps gcc from putting few numbers side by side. By `benches/c/run`, with these lines and
+/// without: a step of a four-bar takes 106 and 152 ns, of a UR5, which has six turns, 400 and 357.
 const ALONE: &str = "\
 /* Numbers that gcc puts side by side in one register pass through memory to be taken apart. */
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && !defined(__HIPCC__)
@@ -146,8 +146,8 @@ fn wrappers<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
     }
     let numbers = [0.0, 0.0].into_iter().chain(export.start.iter().copied());
     let mut lines = String::new();
-    for (path, number) in structs[STATE].paths().iter().zip(numbers) {
-        let _ = writeln!(lines, "    state->{path} = {};", text.number(number));
+    for (path, value) in structs[STATE].paths().iter().zip(numbers) {
+        let _ = writeln!(lines, "    state->{path} = {};", number(value));
     }
     let _ = writeln!(
         functions,
@@ -164,7 +164,7 @@ fn wrappers<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
     } else {
         format!("{n}_evaluate({handed}state, &rates);")
     };
-    let least = text.number(export.least_pivot);
+    let least = number(export.least_pivot);
     let singular = if text.has_pivot {
         format!("    if (pivot < {least}) {{\n        return {u}_SINGULAR;\n    }}\n")
     } else {
@@ -208,7 +208,7 @@ fn finite(text: &Text, of: &Struct, functions: &mut String) {
         .into_iter()
         .map(|path| format!("(x->{path} - x->{path})"));
     let sum = balanced(&differences.collect::<Vec<_>>());
-    let (kind, zero) = (of.name, text.number(0.0));
+    let (kind, zero) = (of.name, number(0.0));
     let _ = writeln!(
         functions,
         "\
@@ -227,8 +227,8 @@ fn defaults(text: &Text, of: &Struct, values: &[Value], numbers: &[f64], functio
     let places = values.iter().flat_map(|value| &value.places);
     let mut lines = String::new();
     for (path, &place) in of.paths().iter().zip(places) {
-        let number = numbers.get(place).copied().unwrap_or(0.0);
-        let _ = writeln!(lines, "    {name}->{path} = {};", text.number(number));
+        let value = numbers.get(place).copied().unwrap_or(0.0);
+        let _ = writeln!(lines, "    {name}->{path} = {};", number(value));
     }
     let _ = writeln!(
         functions,

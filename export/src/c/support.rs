@@ -4,6 +4,7 @@
 use holonom::mechanism::{QUARTER_OF_DOUBLE, QUARTER_OF_SINGLE, TURN_OF_DOUBLE, TURN_OF_SINGLE};
 
 use super::Text;
+use super::body::number;
 
 /// A function beside those of the program. The order is that in which they are written: a turn
 /// needs others.
@@ -118,7 +119,7 @@ static {u}_FUNCTION {real} {n}_ulp({real} x)
 /// Sine and versine of an angle, by the polynomials of `f64` or of `f32`.
 fn turn(text: &Text) -> String {
     let (n, u, real) = (&text.name, &text.upper, text.real());
-    let c = |x: f64| text.number(x);
+    let c = number;
     // As `math/versine.rs` of `holonom` has them.
     let polynomials = if text.is_single {
         let three = |[a, b, d]: [f64; 3]| {
@@ -214,7 +215,7 @@ fn turns(text: &Text) -> String {
         return;
     }}
 ",
-            small = text.number(0.9)
+            small = number(0.9)
         )
     } else {
         String::new()

@@ -117,3 +117,36 @@ fn single_precision_and_other_methods() {
     );
     compare!("kutta", FourBar, f64, Double, Relative, Kutta3);
 }
+
+#[test]
+fn both_sides_of_a_choice_are_computed_to_the_same_bits() {
+    let export = |name| {
+        let bars = FourBar::default();
+        let export = Export::<_, Double, Relative>::new(&bars, StandardLagrange).named(name);
+        export.step(Rk4)
+    };
+    let stepper = FourBar::default()
+        .stepper(StandardLagrange, Rk4)
+        .expect("described");
+    let start = stepper
+        .joint_coordinates()
+        .initial_state()
+        .expect("described");
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let mut given = Vec::new();
+    for number in 0..1000 {
+        given.extend([[1e-4, 1e-2, 1.0][number % 3], 0.0, 0.0]);
+        random_state(&start, &mut random).for_each(|number| given.push(number));
+    }
+    let [one, other] = [export("branched"), export("straight").without_branches()].map(|export| {
+        let source = export.c().expect("exported");
+        let has_branches = source.source.contains("    } else {");
+        let results = Program::compiled(&source, &steps(&source)).run(&given);
+        (
+            has_branches,
+            results.into_iter().map(f64::to_bits).collect::<Vec<_>>(),
+        )
+    });
+    assert!(one.0 && !other.0, "one has branches, the other has none");
+    assert!(one.1 == other.1, "the same bits");
+}

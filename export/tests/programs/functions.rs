@@ -2,7 +2,7 @@
 //! derivatives, by C and by Rust.
 
 use crate::compiled::{Program, random_state};
-use holonom::mechanism::{HasInverse as _, HasMassMatrix as _, Relative};
+use holonom::mechanism::{Absolute, HasInverse as _, HasMassMatrix as _, Relative};
 use holonom::prelude::*;
 use holonom::state::Vector;
 use holonom_export::{Double, Export, ExportError, ExportExt as _, Single, Source};
@@ -119,6 +119,32 @@ fn kernels_in_the_rates_of_joints_are_those_of_rust() {
 }
 
 #[test]
+fn derivatives_by_joints_are_those_of_the_kernel() {
+    let source = ur5("by_joints").joint_derivatives().c().expect("exported");
+    let program = program(
+        &source,
+        "by_joints_constants constants; by_joints_inputs inputs; by_joints_joint_jacobian j;",
+        "",
+        "by_joints_default_inputs(&inputs); by_joints_prepare(&inputs, &constants); by_joints_joint_derivatives(&constants, &state, &j);",
+        "j",
+    );
+    let parameters = Ur5::default().parameters::<f64>().expect("described");
+    let constants = Ur5::prepare_joints(&parameters);
+    for state in states() {
+        let results = program.run(&given(&state));
+        let columns = results.len() / 6;
+        let kernel = Ur5::derivatives(&constants, 0.0, &state);
+        for (k, &entry) in results.iter().enumerate() {
+            assert_eq!(
+                entry,
+                kernel[6 * (1 + k % columns) + k / columns],
+                "entry {k}"
+            );
+        }
+    }
+}
+
+#[test]
 fn readings_are_those_of_a_view() {
     let handles = FourBar::HANDLES;
     let export = Export::<FourBar, Double, Relative>::new(&FourBar::default(), StandardLagrange);
@@ -214,7 +240,7 @@ fn differences<X: Vector<f64> + Copy>(source: &Source, start: &X, given_before: 
                 let error = (difference - derivative).abs();
                 let scale = largest.max(derivative.abs());
                 assert!(
-                    error < 1e-7 * scale * scale,
+                    error < 1e-6 * scale,
                     "{n}, row {row}, column {column}: {derivative} for {difference}"
                 );
             }
@@ -247,6 +273,17 @@ fn derivatives_are_those_of_differences() {
         .initial_state()
         .expect("described");
     differences(&source, &start, "");
+    let export = Export::<FourBar, Double, Absolute>::new(&FourBar::default(), StandardLagrange);
+    let source = export
+        .named("derived_bodies")
+        .derivatives()
+        .c()
+        .expect("exported");
+    let stepper = FourBar::default()
+        .stepper(StandardLagrange, Rk4)
+        .expect("described");
+    let stepper = stepper.absolute_coordinates();
+    differences(&source, &stepper.initial_state().expect("described"), "");
 }
 
 #[test]
@@ -276,6 +313,17 @@ fn what_cannot_be_exported_is_named() {
         .expect_err("a struct has the name")
         .to_string();
     assert_eq!(refused, "the name `jacobian` is given twice");
+    let bars_by_joints = Export::<_, Double, Relative>::new(&bars, StandardLagrange);
+    let refused = bars_by_joints
+        .joint_derivatives()
+        .c()
+        .expect_err("not asked for");
+    assert!(
+        refused
+            .to_string()
+            .contains("write `kernels = [derivatives]`"),
+        "{refused}"
+    );
     let twice = bars
         .export(StandardLagrange)
         .reading("state", "", |view| view.time());

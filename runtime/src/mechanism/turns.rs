@@ -4,7 +4,7 @@
 //! was counted last, and how far any may have turned since. That is by the sum of all rates, or by
 //! the greatest rate of a joint where each is one motion of a tree. Angles are counted anew where
 //! it may be a radian, so a step of a slow motion costs a sum. Sine and cosine tell an angle up to
-//! whole turns; these are the ones that bring it nearest to what was counted last and the mean of
+//! whole turns. These are the ones that bring it nearest to what was counted last and the mean of
 //! both rates times the time between.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
