@@ -359,28 +359,28 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
     }
 
     /// Derivatives of the accelerations of the joints' rates: by the positions of the joints, by
-    /// their rates, by efforts along them and by inputs, of a mechanism with
-    /// `kernels = [derivatives]`. It has fewer operations than [`Export::derivatives`], whose rows
+    /// their rates, by efforts along them, by inputs and by the parameters that are named, of a
+    /// mechanism with `kernels = [derivatives]`. It has fewer operations than [`Export::derivatives`], whose rows
     /// and columns are the numbers of a state.
     ///
     /// In a mechanism with loops, positions and rates are taken as if they could change one by one.
     #[must_use]
     pub fn joint_derivatives(mut self) -> Self {
-        let Some(inputs) = M::DERIVED_BY else {
+        let Some(values) = M::DERIVED_BY else {
             return self.refused(ExportError::Kernel {
                 kernel: "derivatives",
             });
         };
         let rates = by_rates(&M::JOINT_REPORT, ["", ""]);
-        let (rows, columns) = (rates.len(), 3 * rates.len() + inputs.len());
+        let (rows, columns) = (rates.len(), 3 * rates.len() + values.len());
         let names: Vec<&str> = rates.iter().map(|rate| rate.name.as_str()).collect();
-        let inputs = inputs.iter();
-        let inputs = inputs.filter_map(|&input| Some(M::REPORT.values.get(input)?.name));
-        let inputs: Vec<&str> = inputs.collect();
+        let values = values.iter();
+        let values = values.filter_map(|&value| Some(M::REPORT.values.get(value)?.name));
+        let values: Vec<&str> = values.collect();
         let about = format!(
-            "Derivatives of the accelerations of {}, a row each. Columns: by the positions of these, by their rates, by efforts along them, and by the inputs {}.",
+            "Derivatives of the accelerations of {}, a row each. Columns: by the positions of these, by their rates, by efforts along them, and by the values {}.",
             names.join(", "),
-            inputs.join(", ")
+            values.join(", ")
         );
         let jacobian = self.matrix("joint_jacobian", about, rows * columns);
         self.with_kernel(
@@ -391,12 +391,21 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
             None,
             written("jacobian", jacobian),
             |(constants, time, state), _| {
-                // Columns stand one after the other, behind the accelerations.
+                // Columns stand one after the other, behind the accelerations; those by the user's own
+                // states, and what they do to the rates of these, are left out.
+                let states = M::JOINT_REPORT.states.len();
+                let places = (0..columns).map(|column| match column {
+                    column if column < 2 * rows => column,
+                    column => column + states,
+                });
+                let places: Vec<usize> = places.collect();
                 let numbers = M::derivatives(constants, time, state);
                 let numbers = numbers.as_slice();
                 let entries = (0..rows).flat_map(|row| {
-                    let column = move |column| numbers.get(rows * (1 + column) + row).copied();
-                    (0..columns).filter_map(column)
+                    let at = move |&place: &usize| {
+                        numbers.get((rows + states) * (1 + place) + row).copied()
+                    };
+                    places.iter().filter_map(at)
                 });
                 entries.collect()
             },

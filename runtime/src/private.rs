@@ -9,6 +9,7 @@ pub use holonom_urdf_macros::urdf_impl;
 
 pub use crate::dynamics::likes::{Like, check_likes};
 pub use crate::error::ParameterFault;
+pub use crate::forward::slope;
 pub use crate::math::side::{above, below, side};
 pub use crate::math::spline::{Order, SplineFault, Table, evaluate_numbers};
 pub use crate::mechanism::by_rows::{Profile, RowFactors, factor_by_rows, solve_by_rows};

@@ -35,7 +35,8 @@ pub fn mechanism(
     } else {
         rank::judge(&checked.model)
     };
-    let model = checked.judged(found, faults);
+    let mut model = checked.judged(found, faults);
+    check::slopes::add(&mut model, facade);
     if !faults.any() && model.bodies.iter().any(|body| body.as_given) {
         check::bodies::judged(&model, rank::is_definite(&model), faults);
     }

@@ -22,7 +22,10 @@ where
         columns: &mut <C::State<S> as Vector<S>>::Each<C::State<S>>,
     ) -> Option<usize> {
         let equations = self.evaluator().equations;
-        if !A::PRESENT && C::differentiated(&equations.constants, time, state, columns) {
+        let (constants, coefficients) = (&equations.constants, &equations.coefficients);
+        if !A::PRESENT
+            && C::differentiated::<S, F::Terms>(constants, coefficients, time, state, columns)
+        {
             let independent = (0..state.length()).filter(|&index| state.is_independent(index));
             let mut columns = independent.clone().map(|index| &columns[index]);
             return columns.all(Vector::is_finite).then(|| independent.count());

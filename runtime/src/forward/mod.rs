@@ -108,6 +108,21 @@ impl<S: Scalar, const N: usize> Forward<S, N> {
     }
 }
 
+/// What a function of some numbers changes by with one of them, by its place.
+#[inline]
+pub fn slope<S: Scalar, const K: usize>(
+    of: impl Fn(&[Forward<S, 1>; K]) -> Forward<S, 1>,
+    numbers: &[S; K],
+    by: usize,
+) -> S {
+    let mut numbers = numbers.map(Forward::fixed);
+    if let Some(number) = numbers.get_mut(by) {
+        *number = Forward::along(number.value, 0);
+    }
+    let [slope] = of(&numbers).derivatives;
+    slope
+}
+
 impl<S: Scalar, const N: usize> Add for Forward<S, N> {
     type Output = Self;
 

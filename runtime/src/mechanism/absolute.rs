@@ -13,7 +13,7 @@ use crate::mechanism::orientations::{
 };
 use crate::mechanism::report::BodyKind;
 use crate::state::sealed::Sealed;
-use crate::state::vector::{Array, MovingState, StateParts};
+use crate::state::vector::{Array, MovingState, StateParts, Vector};
 
 impl<P> Sealed for Absolute<P> {}
 
@@ -54,6 +54,22 @@ impl<M: Mechanism, P: Orientation> Coordinates<M> for Absolute<P> {
 
     #[inline(always)]
     fn take_inputs<S: Scalar>(_parameters: &M::Parameters<S>, (): &mut ()) {}
+
+    fn differentiated<S: Real, T: Terms>(
+        constants: &M::Constants<S>,
+        coefficients: &M::Coefficients<S>,
+        time: S,
+        state: &M::State<S>,
+        columns: &mut <M::State<S> as Vector<S>>::Each<M::State<S>>,
+    ) -> bool {
+        if const { !M::HAS_RATE_COLUMNS || P::NORMALISED_RATES } {
+            return false;
+        }
+        M::rate_columns::<S, T>(constants, coefficients, time, state, |number, column| {
+            columns[number] = column;
+        });
+        true
+    }
 
     #[inline(always)]
     fn evaluate_into<S: Scalar, T: Terms>(

@@ -110,8 +110,9 @@ pub trait Coordinates<M: Mechanism>: Copy + Debug + Sealed + 'static {
 
     /// Writes the Jacobian of the rates by a kernel of its own; whether there is one.
     #[doc(hidden)]
-    fn differentiated<S: Real>(
+    fn differentiated<S: Real, T: Terms>(
         _constants: &Self::Constants<S>,
+        _coefficients: &Self::Coefficients<S>,
         _time: S,
         _state: &Self::State<S>,
         _columns: &mut <Self::State<S> as Vector<S>>::Each<Self::State<S>>,

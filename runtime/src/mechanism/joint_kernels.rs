@@ -97,16 +97,19 @@ pub trait JointCoordinates: Mechanism {
         Self::evaluate_joints_into::<S, T>(constants, coefficients, time, state, rates, multipliers)
     }
 
-    /// With `kernels = [derivatives]`, the inputs by which there are derivatives, by their places
-    /// in [`Report::values`](crate::Report::values).
+    /// With `kernels = [derivatives]`, the values by which there are derivatives, by their places
+    /// in [`Report::values`](crate::Report::values): all inputs, and of `derivatives(length)` the
+    /// parameters that are named.
     const DERIVED_BY: Option<&'static [usize]> = None;
 
-    /// The accelerations of the rates of the joints, and behind them the columns of their
-    /// derivatives. Columns are by the position of each, by each rate, by an effort along each, and
-    /// by the inputs of [`JointCoordinates::DERIVED_BY`]. There is no number where that is `None`.
+    /// The accelerations of the rates of the joints and the rates of the user's own states, and
+    /// behind them the columns of their derivatives. Columns are by the position of each joint, by
+    /// each rate, by each of those states, by an effort along each rate, and by the values of
+    /// [`JointCoordinates::DERIVED_BY`], all else held. There is no number where that is `None`.
     ///
     /// Where equations close loops, a column for each position follows, the rates that take away
-    /// what it adds to `Phi'`; then relative pivots.
+    /// what it adds to `Phi'`. Then for each value a displacement that takes away what it adds to
+    /// `Phi`, and then one of rates for `Phi'`. Last come relative pivots.
     fn derivatives<S: Scalar>(
         _constants: &Self::JointConstants<S>,
         _time: S,

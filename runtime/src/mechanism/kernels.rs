@@ -413,6 +413,22 @@ pub trait Mechanism: Sized + 'static {
         evaluation
     }
 
+    /// Whether there is [`Mechanism::rate_columns`]: with `coordinates = "bodies"` and
+    /// `kernels = [derivatives]`.
+    const HAS_RATE_COLUMNS: bool = false;
+
+    /// Gives the derivatives of the rates of a state: a column by each of its coordinates, as they
+    /// are stored, and then by each velocity, with its number. Nothing where
+    /// [`Mechanism::HAS_RATE_COLUMNS`] says that they are not there.
+    fn rate_columns<S: Scalar, T: Terms>(
+        _constants: &Self::Constants<S>,
+        _coefficients: &Self::Coefficients<S>,
+        _time: S,
+        _state: &Self::State<S>,
+        _put: impl FnMut(usize, Self::State<S>),
+    ) {
+    }
+
     /// Factorises the matrix of the saddle system; with compliance where `T::COMPLIANT`. `p` is
     /// read as it is.
     fn factor<S: Scalar, T: Terms>(

@@ -67,13 +67,14 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         M::take_joint_inputs(parameters, &mut own.constants);
     }
 
-    fn differentiated<S: Real>(
+    fn differentiated<S: Real, T: Terms>(
         constants: &M::JointConstants<S>,
+        _coefficients: &M::JointCoefficients<S>,
         time: S,
         state: &M::JointState<S>,
         columns: &mut <M::JointState<S> as Vector<S>>::Each<M::JointState<S>>,
     ) -> bool {
-        joint_columns::written::<M, S>(constants, time, state, columns)
+        joint_columns::written::<M, S, T>(constants, time, state, columns)
     }
 
     #[inline(always)]

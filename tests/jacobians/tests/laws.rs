@@ -1,8 +1,8 @@
 //! Laws, inputs, closures, readings of Euler parameters and number types: what else a Jacobian is
 //! made of.
 
-use holonom::forces::{Actuator, TorsionalActuator};
-use holonom::joints::{Revolute, Spherical};
+use holonom::forces::{Actuator, SpringDamper, TorsionalActuator};
+use holonom::joints::{Distance, Revolute, Spherical};
 use holonom::prelude::*;
 use holonom::{
     AugmentedLagrangian,
@@ -101,7 +101,7 @@ fn parameters_and_inputs_enter() {
 
 /// A fan on a motor whose current is a state, against a moment from a table.
 #[derive(Mechanism)]
-#[mechanism(coordinates = "both")]
+#[mechanism(coordinates = "both", kernels = [derivatives])]
 struct Fan {
     #[param]
     drag: Spline<4>,
@@ -115,9 +115,11 @@ struct Fan {
     motor: TorsionalActuator,
 }
 
-/// Rows and columns of the current, and the slope of the table where the shaft turns.
+/// Rows and columns of the current, and the slope of the table where the shaft turns. By joints, the
+/// kernel that is asked for has them.
 #[test]
 fn states_and_tables_enter() {
+    assert!(Fan::DERIVED_BY.is_some() && !Fan::HAS_RATE_COLUMNS);
     let drag = Spline::natural([-2.0, 0.5, 1.0, 2.0], [-0.9, 0.1, 0.4, 2.0]);
     let fan = Fan::new(drag).expect("sound");
     let mut bodies = Dynamics::<Problem<_, _>>::new(&fan, StandardLagrange).expect("sound");
@@ -131,6 +133,61 @@ fn states_and_tables_enter() {
     let matrix = agrees("bodies", &mut bodies, &of_bodies, (7 + 6 + 1, EXACT));
     assert!(matrix.amax() > 10.0);
     agrees("joints", &mut joints, &of_joints, (1 + 1 + 1, EXACT));
+}
+
+/// A swing of bodies alone, with the kernel of derivatives: bodies, Euler parameters, a loop, an
+/// angle that is counted, a state and an input.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], kernels = [derivatives])]
+struct Tied {
+    #[input]
+    gain: f64,
+    #[state(rate = gain - 3.0 * current * current - 0.2 * hinge.rate)]
+    current: f64,
+    #[body(mass = 2.0, inertia = [0.1, 0.01, 0.1], position = [0.0, 0.4, 0.0])]
+    arm: Body,
+    #[body(
+        mass = 1.0,
+        inertia = [[0.02, 0.001, 0.0], [0.001, 0.03, 0.0], [0.0, 0.0, 0.02]],
+        position = [0.1, 0.8, -0.3]
+    )]
+    bob: Body,
+    #[joint(between = [ground, arm], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    hinge: Revolute,
+    #[joint(between = [arm, bob], point = [0.0, 0.8, 0.0])]
+    ball: Spherical,
+    #[joint(between = [ground, bob], head = [0.5, 0.9, 0.4], tail = [0.1, 0.8, -0.4])]
+    tie: Distance,
+    #[force(between = [ground, arm], axis = [1.0, 0.0, 0.0],
+        moment = current * sin(3.0 * angle + time) - 0.2 * gain * rate)]
+    motor: TorsionalActuator,
+    #[force(between = [ground, bob], head = [0.5, 0.0, 0.2], tail = [0.1, 0.8, -0.3], stiffness = 40.0, free_length = 0.6)]
+    spring: SpringDamper,
+}
+
+/// Bodies and all formulations, off the constraints, by the kernel that is asked for.
+#[test]
+fn bodies_have_a_kernel_of_derivatives() {
+    fn in_a_formulation<F: Formulation<f64>>(formulation: F) {
+        let tied = Tied {
+            gain: 0.7,
+            current: 1.3,
+            ..Tied::default()
+        };
+        let mut dynamics = Dynamics::<Problem<_, _>>::new(&tied, formulation).expect("sound");
+        for (size, seed) in [(0.01, 11), (0.2, 12)] {
+            let state = beside(&Tied::initial_state(dynamics.constants()), size, seed);
+            // Fourteen coordinates, a count of turns, the current, twelve velocities.
+            let matrix = agrees("tied", &mut dynamics, &state, (28, EXACT));
+            let exact = by_dual_numbers(&tied, &formulation, &state);
+            let [by_rows, _] = apart(&matrix, &exact);
+            assert!(by_rows < 1e-11, "{formulation:?}: {by_rows:e}");
+        }
+    }
+    assert!(Tied::HAS_RATE_COLUMNS && !Swing::HAS_RATE_COLUMNS);
+    in_a_formulation(StandardLagrange);
+    in_a_formulation(Baumgarte::default());
+    in_a_formulation(Penalty::default());
 }
 
 /// A drag of the air, which only plain numbers know, enters by differences, and everything else

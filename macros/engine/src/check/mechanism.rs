@@ -20,8 +20,7 @@ use super::{asked, kinds, parts, points, redundant};
 use crate::diag::{Faults, code, did_you_mean};
 use crate::model::name::Step;
 use crate::model::{
-    Asked, Body, Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Part,
-    Redundant,
+    Body, Coordinates, ElementDef, ElementKind, Independence, Model, Name, Number, Part, Redundant,
 };
 use crate::syntax::array::{is_constant, is_index};
 use crate::syntax::mechanism::{Field, MechanismSyntax, Role};
@@ -130,7 +129,7 @@ fn described<'a>(
         gravity,
         wish,
         coordinates,
-        asked,
+        kernels,
     } = attributes(syntax, &mut numbers, faults);
     numbers.scopes = scopes(syntax, facade);
     let parts = parts::parts(syntax, &mut numbers, faults);
@@ -278,7 +277,8 @@ fn described<'a>(
         switches,
         independence: Independence::default(),
         coordinates,
-        asked,
+        asked: kernels.asked,
+        derived_by: kernels.derived_by,
         constants,
         lengths: syntax.lengths.clone(),
     };
@@ -362,7 +362,7 @@ fn attributes<'a>(
     // What was meant by something else is unknown.
     let known =
         (wanted.is_none() || coordinates.is_some()).then(|| coordinates.unwrap_or_default());
-    let asked = asked::read(pairs.optional(asked::KEY, faults), known, faults);
+    let kernels = asked::read(pairs.optional(asked::KEY, faults), known, numbers, faults);
     kinds::read(pairs.optional(kinds::KEY, faults), faults);
     // They are read with the arrays.
     for pair in &syntax.list.pairs {
@@ -375,7 +375,7 @@ fn attributes<'a>(
         gravity,
         wish: (wish.unwrap_or_default(), redundant),
         coordinates: coordinates.unwrap_or_default(),
-        asked,
+        kernels,
     }
 }
 
@@ -387,7 +387,7 @@ struct Attributes<'a> {
     gravity: Option<[Number; 3]>,
     wish: Wish<'a>,
     coordinates: Coordinates,
-    asked: Vec<Asked>,
+    kernels: asked::Kernels,
 }
 
 /// One of some words in quotes.

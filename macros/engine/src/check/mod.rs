@@ -28,6 +28,7 @@
 //!   them. See `docs/decisions/022-assemblies.md`.
 //! - `limits.rs`: limits of joints that leave one coordinate free.
 //! - `asked.rs`: kernels that are asked for by `kernels = [..]`.
+//! - `slopes.rs`: what numbers change by with those that are in them, as symbols of their own.
 //! - `redundant.rs`, `moves.rs`: refusals of what `rank` found by numbers. `passes` hands it over.
 //!   `apart.rs` says how far from each other things are.
 //!
@@ -61,6 +62,7 @@ mod placement;
 mod points;
 mod readings;
 mod redundant;
+pub mod slopes;
 mod states;
 mod switches;
 mod switching;

@@ -147,6 +147,7 @@ impl<'a> Numbers<'a> {
             scalar,
             values,
             itself,
+            slope_of: None,
             like,
             constant,
             span,

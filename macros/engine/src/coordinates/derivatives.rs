@@ -7,46 +7,50 @@
 //! *Analytical derivatives of rigid body dynamics algorithms*, RSS 2018.
 //!
 //! Directions are those of joints, as handles read them: a small turn or displacement along a rate
-//! of a joint, a rate, an effort along a rate, an input.
+//! of a joint, a rate, a state of the user's own, an effort along a rate, an input or a parameter.
 
 use super::candidates::Method;
 use super::joint_rates::{Sums, Wanted};
 use super::rates::coordinate_rates;
 use super::system::Reduced;
-use crate::model::{Asked, Curve, Model};
+use crate::model::{Asked, Model, Number};
+use crate::plan::derivatives::is_smooth;
 use crate::plan::eliminate::Factors;
 use crate::plan::kernels::relative;
 use crate::plan::system::Terms;
-use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
+use crate::symbolic::arena::{Arena, Expr, Input, Stage};
 use crate::symbolic::count::count;
-use crate::symbolic::equations::{Kernel, turning};
+use crate::symbolic::equations::{Kernel, state_rates, turning};
 use crate::symbolic::tangent::{Direction, along, with_inputs};
 
 /// The kernel. Its outputs are, in this order:
 ///
-/// - the accelerations of the joints' rates;
-/// - column by column their derivatives by positions, by rates, by efforts and by inputs;
-/// - where rows close loops, for each position `x` with `D x = -dPhi'/dq`;
+/// - the accelerations of the joints' rates, and the rates of the user's own states;
+/// - column by column their derivatives by positions, by rates, by those states, by efforts and by
+///   values;
+/// - where rows close loops, for each position `x` with `D x = -dPhi'/dq`, and for each value `x`
+///   with `D x = -dPhi/dp`, and `x` with `D x = -dPhi'/dp`; zeros in the places of states;
 /// - relative pivots.
 #[derive(Clone, Debug)]
 pub struct Derivatives {
     /// The outputs.
     pub kernel: Kernel,
-    /// The places among the values of the mechanism of the inputs by which it is differentiated:
-    /// those that the forces have as they are, and the rows have not.
-    pub inputs: Vec<usize>,
+    /// The places among the values of the mechanism of the inputs and parameters by which it is
+    /// differentiated.
+    pub values: Vec<usize>,
 }
 
 /// What the columns are along.
 pub(super) struct Directions {
     positions: Vec<Direction>,
     rates: Vec<Direction>,
+    states: Vec<Direction>,
     inputs: Vec<Direction>,
 }
 
 impl Directions {
     pub(super) fn all(&self) -> Vec<Direction> {
-        let all = [&self.positions, &self.rates, &self.inputs];
+        let all = [&self.positions, &self.rates, &self.states, &self.inputs];
         all.into_iter().flatten().cloned().collect()
     }
 }
@@ -89,25 +93,10 @@ impl Derivatives {
             return None;
         }
         let sums = &Sums::of(&reduced.links);
-        let inputs = plain_inputs(model, reduced, sums);
-        let kernel = cheapest(reduced, |reduced, road| {
-            kernel(reduced, sums, &inputs, road)
-        })?;
-        let inputs = inputs.into_iter().map(|(_, place)| place).collect();
-        Some(Self { kernel, inputs })
+        let values = model.derived_values();
+        let kernel = cheapest(reduced, |reduced, road| kernel(model, reduced, sums, road))?;
+        Some(Self { kernel, values })
     }
-}
-
-/// Whether it has no derivative of a spline that jumps.
-fn is_smooth(kernel: &Kernel) -> bool {
-    let mut live = kernel
-        .arena
-        .live(&kernel.outputs, Stage::Parameter)
-        .into_iter();
-    live.all(|place| match kernel.arena.node(place) {
-        Node::Curve(curve, _) => curve.derivative <= Curve::HIGHEST,
-        _ => true,
-    })
 }
 
 /// The rows that remain, in the rates of the joints.
@@ -116,17 +105,49 @@ struct Rows {
     gamma: Vec<Expr>,
     /// `Phi'`.
     rates: Vec<Expr>,
+    /// `Phi`.
+    values: Vec<Expr>,
 }
 
-fn kernel(mut reduced: Reduced, sums: &Sums, inputs: &[(u32, usize)], road: Road) -> Kernel {
-    let directions = reduced.directions(sums, inputs);
+/// The directions along which the user's own states change by one.
+fn along_states(model: &Model, reduced: &Reduced) -> Vec<Direction> {
+    let first = 2 * reduced.links.turns + reduced.links.rest + reduced.scene.counters.len();
+    let places = first..first + model.states.len();
+    let inputs = places.map(|place| Input::Coordinate(place as u32));
+    inputs
+        .map(|input| Direction::from([(input, Arena::ONE)]))
+        .collect()
+}
+
+/// The directions along which inputs and parameters change by one: with all symbols that have them.
+fn along_values(model: &Model, arena: &mut Arena) -> Vec<Direction> {
+    let known = |symbol: usize| match model.number(symbol) {
+        Number::Varying(place) => Input::Varying(place),
+        _ => Input::Symbol(symbol as u32),
+    };
+    let of_value = |value| {
+        let symbols = model.symbols.iter().enumerate();
+        let changes = symbols.filter_map(|(place, symbol)| match symbol.slope_of {
+            Some((of, by)) => (by == value).then(|| (known(of), arena.input(known(place)))),
+            None => (symbol.itself == Some(value)).then(|| (known(place), Arena::ONE)),
+        });
+        changes.collect()
+    };
+    model.derived_values().into_iter().map(of_value).collect()
+}
+
+fn kernel(model: &Model, mut reduced: Reduced, sums: &Sums, road: Road) -> Kernel {
+    let mut directions = reduced.directions(sums, &[]);
+    directions.states = along_states(model, &reduced);
+    directions.inputs = along_values(model, &mut reduced.scene.space.arena);
     let rows = reduced.split_rows(sums);
     let solution = reduced.solve(Terms::Plain);
     let factors = reduced.factors();
+    let state_rates = state_rates(&mut reduced.scene);
     let arena = &mut reduced.scene.space.arena;
     let accelerations = sums.rates(arena, &solution.accelerations);
     let all = directions.all();
-    let columns = match road {
+    let mut columns = match road {
         Road::ThroughSolution => along(arena, &accelerations, &all),
         Road::ThroughEfforts => {
             let known = (&accelerations[..], &solution.multipliers[..]);
@@ -134,28 +155,39 @@ fn kernel(mut reduced: Reduced, sums: &Sums, inputs: &[(u32, usize)], road: Road
         }
     };
     let arena = &mut reduced.scene.space.arena;
+    let of_states = along(arena, &state_rates, &all);
+    for (column, of_states) in columns.iter_mut().zip(of_states) {
+        column.extend(of_states);
+    }
     let (count, height) = (accelerations.len(), rows.gamma.len());
+    let nothing = vec![Arena::ZERO; count];
+    let solved = |arena: &mut Arena, upper: Vec<Expr>, lower: Vec<Expr>| {
+        let mut column = solved(arena, sums, &factors, upper, lower);
+        column.resize(count + state_rates.len(), Arena::ZERO);
+        column
+    };
     let efforts = (0..count).map(|place| {
-        let mut unit = vec![Arena::ZERO; count];
+        let mut unit = nothing.clone();
         unit[place] = Arena::ONE;
-        solved(arena, sums, &factors, unit, vec![Arena::ZERO; height])
+        solved(arena, unit, vec![Arena::ZERO; height])
     });
     let efforts: Vec<Vec<Expr>> = efforts.collect();
-    let following = if height > 0 {
-        let opening = along(arena, &rows.rates, &directions.positions);
-        let opening = opening.into_iter().map(|opening| {
-            let lower = opening.into_iter().map(|rate| -rate).collect();
-            solved(arena, sums, &factors, vec![Arena::ZERO; count], lower)
-        });
-        opening.collect()
-    } else {
-        Vec::new()
-    };
+    let mut opening = Vec::new();
+    if height > 0 {
+        opening.extend(along(arena, &rows.rates, &directions.positions));
+        opening.extend(along(arena, &rows.values, &directions.inputs));
+        opening.extend(along(arena, &rows.rates, &directions.inputs));
+    }
+    let following = opening.into_iter().map(|opening| {
+        let lower = opening.into_iter().map(|change| -change).collect();
+        solved(arena, nothing.clone(), lower)
+    });
+    let following: Vec<Vec<Expr>> = following.collect();
     let checks = reduced.referred(&solution.checks);
     let (pivots, _) = relative(&mut reduced.scene, &checks);
-    let (states, inputs) = columns.split_at(2 * count);
-    let mut outputs = accelerations;
-    let columns = [states, &efforts, inputs, &following].concat();
+    let (before, inputs) = columns.split_at(2 * count + directions.states.len());
+    let columns = [before, &efforts, inputs, &following].concat();
+    let mut outputs = [accelerations, state_rates].concat();
     outputs.extend(columns.into_iter().flatten());
     outputs.extend(pivots);
     let mut kernel = Kernel {
@@ -193,8 +225,9 @@ pub(super) fn plain_inputs(model: &Model, reduced: &Reduced, sums: &Sums) -> Vec
         let place = known.itself?;
         let mut others = model.symbols.iter().enumerate();
         // One that is a part of another number as well changes more than its own symbol.
-        let is_alone =
-            others.all(|(other, known)| other == symbol || !known.values.contains(&place));
+        let is_alone = others.all(|(other, known)| {
+            other == symbol || known.slope_of.is_some() || !known.values.contains(&place)
+        });
         let is_input = model.values.get(place).is_some_and(|value| value.is_input);
         let found = (symbol as u32, place);
         (is_input && is_alone).then_some(found)
@@ -256,6 +289,7 @@ impl Reduced {
         Directions {
             positions,
             rates,
+            states: Vec::new(),
             inputs: inputs.collect(),
         }
     }
@@ -273,12 +307,13 @@ impl Reduced {
         let (width, height) = (self.links.velocities, self.scene.layout.rows);
         let mut gamma = jacobian.split_off(width * height);
         let mut rates = gamma.split_off(height);
-        rates.truncate(height);
+        let values = rates.split_off(height);
         let jacobian = jacobian.chunks(width.max(1)).map(<[Expr]>::to_vec);
         Rows {
             jacobian: jacobian.collect(),
             gamma,
             rates,
+            values,
         }
     }
 

@@ -84,7 +84,7 @@ impl Writer<'_, JointKernels> {
     /// The accelerations with their derivatives; without these, the type of no number.
     pub(super) fn derivatives(&mut self) -> TokenStream {
         let (facade, kernels) = (self.facade, self.kernels);
-        let Some(Derivatives { kernel, inputs }) = &kernels.derivatives else {
+        let Some(Derivatives { kernel, values }) = &kernels.derivatives else {
             return quote!(type Derivatives<__S: #facade::Scalar> = [__S; 0];);
         };
         let (none, unpack, arguments) = (TokenStream::new(), Self::unpack(), arguments());
@@ -96,7 +96,7 @@ impl Writer<'_, JointKernels> {
         quote! {
             type Derivatives<__S: #facade::Scalar> = [__S; #length];
             const DERIVED_BY: ::core::option::Option<&'static [usize]> =
-                ::core::option::Option::Some(&[#(#inputs),*]);
+                ::core::option::Option::Some(&[#(#values),*]);
 
             fn derivatives<__S: #facade::Scalar>(#arguments) -> Self::Derivatives<__S> {
                 #unpack

@@ -54,6 +54,8 @@ impl Writer<'_> {
         let state_kernels = self.state_kernels();
         let evaluations = self.evaluations();
         let dispatch = self.dispatch();
+        let rate_columns = self.rate_columns();
+        let choice_of_columns = self.choice_of_columns();
         let (solving, solvers, factors) = self.solving_by_bodies();
         let readouts = self.readouts();
         let initial = self.initial_state();
@@ -124,12 +126,14 @@ impl Writer<'_> {
                     #stages
                     #state_kernels
                     #dispatch
+                    #choice_of_columns
                     #solving
                     #initial
                     #readouts
                 }
 
                 #evaluations
+                #rate_columns
                 #solvers
                 #parts
 

@@ -194,7 +194,11 @@ fn checks(model: &Model, facade: &TokenStream) -> TokenStream {
             }
         }
     }
-    for symbol in &model.symbols {
+    for symbol in model
+        .symbols
+        .iter()
+        .filter(|symbol| symbol.slope_of.is_none())
+    {
         let expression = &symbol.expression;
         let condition = quote!(!f64::is_finite(#expression));
         refuse(

@@ -8,6 +8,7 @@ use quote::quote;
 use super::store::{Kernel as Arguments, Store};
 use super::straight_line::{Environment, StraightLine, write};
 use super::writer::{Described, Writer, function};
+use crate::plan::derivatives::RateColumns;
 use crate::plan::kernels::{Kernels, Solver};
 use crate::plan::system::Terms;
 use crate::symbolic::arena::Stage;
@@ -86,6 +87,73 @@ impl Writer<'_> {
         evaluations.collect()
     }
 
+    /// The derivatives of their rates.
+    pub(super) fn rate_columns(&mut self) -> TokenStream {
+        let (facade, kernels) = (self.facade, self.kernels);
+        let (put, arguments, unpack) = (local("put"), self.arguments(), Self::unpack());
+        let [of_state, ..] = self.types_outside();
+        let length = self.model.layout().stored() + kernels.velocities();
+        let columns = kernels
+            .rate_columns
+            .iter()
+            .map(|RateColumns { terms, kernel }| {
+                let function = function::<Kernels>("rate_columns", *terms);
+                let frame = self.frame(function.to_string(), arguments.clone(), Self::passed());
+                let StraightLine {
+                    statements,
+                    outputs,
+                } = self.line_of(kernel, &frame);
+                let columns = outputs.chunks(length).enumerate();
+                let columns = columns.map(|(place, column)| {
+                    let column = kernels.rates(facade, column);
+                    quote!(#put(#place, #column);)
+                });
+                quote! {
+                    fn #function<__S: #facade::Scalar>(
+                        #arguments
+                        mut #put: impl ::core::ops::FnMut(usize, #of_state),
+                    ) {
+                        #unpack
+                        #statements
+                        #(#columns)*
+                    }
+                }
+            });
+        columns.collect()
+    }
+
+    /// The choice among these.
+    pub(super) fn choice_of_columns(&self) -> TokenStream {
+        let facade = self.facade;
+        let columns = &self.kernels.rate_columns;
+        if columns.is_empty() {
+            return TokenStream::new();
+        }
+        let put = local("put");
+        let names = ["constants", "coefficients", "time", "state"];
+        let [constants, coefficients, time, state] = names.map(local);
+        let arms = columns.iter().map(|RateColumns { terms, .. }| {
+            let pattern = pattern(*terms);
+            let function = function::<Kernels>("rate_columns", *terms);
+            quote!(#pattern => #function(#constants, #coefficients, #time, #state, #put),)
+        });
+        quote! {
+            const HAS_RATE_COLUMNS: bool = true;
+
+            fn rate_columns<__S: #facade::Scalar, __T: #facade::__private::Terms>(
+                #constants: &Self::Constants<__S>,
+                #coefficients: &Self::Coefficients<__S>,
+                #time: __S,
+                #state: &Self::State<__S>,
+                #put: impl ::core::ops::FnMut(usize, Self::State<__S>),
+            ) {
+                match (__T::STABILISED, __T::COMPLIANT) {
+                    #(#arms)*
+                }
+            }
+        }
+    }
+
     pub(super) fn dispatch(&mut self) -> TokenStream {
         let facade = self.facade;
         let (constants, coefficients, state) =
@@ -106,14 +174,10 @@ impl Writer<'_> {
             }
         });
         let arms = self.kernels.evaluations.iter().map(|evaluation| {
-            let (stabilised, compliant) = match evaluation.terms {
-                Terms::Plain => (quote!(false), quote!(false)),
-                Terms::Stabilised => (quote!(true), quote!(false)),
-                Terms::Compliant => (quote!(_), quote!(true)),
-            };
+            let pattern = pattern(evaluation.terms);
             let function = function::<Kernels>("evaluate", evaluation.terms);
             quote! {
-                (#stabilised, #compliant) => #function(#constants, #coefficients, #time, #state, #rates, #multipliers),
+                #pattern => #function(#constants, #coefficients, #time, #state, #rates, #multipliers),
             }
         });
         let evaluate = evaluate.unwrap_or_else(|| {
@@ -136,5 +200,14 @@ impl Writer<'_> {
                 #evaluate
             }
         }
+    }
+}
+
+/// Which formulations have these terms: whether constraints are stabilised, and whether they yield.
+fn pattern(terms: Terms) -> TokenStream {
+    match terms {
+        Terms::Plain => quote!((false, false)),
+        Terms::Stabilised => quote!((true, false)),
+        Terms::Compliant => quote!((_, true)),
     }
 }

@@ -13,7 +13,7 @@ use super::name::Name;
 use super::number::{Number, Symbol, literals};
 use super::rank::{Components, Independence};
 use super::shape::Shape;
-use super::value::{RunTimeValue, Spline, first_further};
+use super::value::{RunTimeValue, Spline, ValueKind, first_further};
 
 /// Whether a body has an orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -260,6 +260,8 @@ pub struct Model {
     pub coordinates: Coordinates,
     /// Kernels in the rates of joints that are asked for.
     pub asked: Vec<Asked>,
+    /// The places of the parameters by which there are derivatives of accelerations.
+    pub derived_by: Vec<usize>,
     /// The constants by path that an assembly has, each once.
     pub constants: Vec<TokenStream>,
     /// Constants by their names that are said to have these values.
@@ -307,6 +309,30 @@ impl Model {
         match number {
             Number::Literal(value) => Some(value),
             Number::Symbol(symbol) | Number::Varying(symbol) => self.like(symbol),
+        }
+    }
+
+    /// The run-time values by which there are derivatives of accelerations, by their places: all
+    /// inputs, and the parameters that are named.
+    #[must_use]
+    pub fn derived_values(&self) -> Vec<usize> {
+        let values = self.values.iter().enumerate();
+        let wanted = values.filter(|(place, value)| {
+            let is_number = !matches!(value.kind, ValueKind::Spline(_));
+            value.is_input && is_number || self.derived_by.contains(place)
+        });
+        wanted.map(|(place, _)| place).collect()
+    }
+
+    /// The number that a symbol is.
+    #[must_use]
+    pub fn number(&self, symbol: usize) -> Number {
+        let mut values = self.symbols[symbol].values.iter();
+        let place = symbol as u32;
+        if values.any(|&value| self.values[value].is_input) {
+            Number::Varying(place)
+        } else {
+            Number::Symbol(place)
         }
     }
 

@@ -55,8 +55,11 @@ pub struct Symbol {
     pub values: Vec<usize>,
     /// Where it is a run-time value as it is: the place of that.
     pub itself: Option<usize>,
-    /// What it is at their typical values; `None` where one of them has none, and for a constant by
-    /// its path.
+    /// Where it is what another symbol changes by with a run-time value: the places of both. Its
+    /// expressions are those of the other.
+    pub slope_of: Option<(usize, usize)>,
+    /// What it is at their typical values; `None` where one of them has none, for a constant by
+    /// its path, and for a slope.
     pub like: Option<f64>,
     /// Where it must be positive and the compiler can evaluate it: a constant of the generated
     /// code, and its value. The expression is its name then, so that one of a wrong type is refused

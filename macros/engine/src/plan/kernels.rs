@@ -2,6 +2,7 @@
 
 use super::Plan;
 use super::candidates::{Factorised, Plans, cheapest, first, solved};
+use super::derivatives::{RateColumns, rate_columns};
 use super::eliminate::Check;
 use super::profile::{Profile, compliances};
 use super::readouts::Readouts;
@@ -100,6 +101,8 @@ pub struct Kernels {
     /// The gains of `Phi'` and of `Phi` in `gamma*`, for evaluations that are put together from
     /// their parts.
     pub gains: Option<Kernel>,
+    /// The derivatives of the rates of evaluations, where they are asked for.
+    pub rate_columns: Vec<RateColumns>,
     /// Factorisation and back-substitution.
     pub solvers: Vec<Solver>,
     /// The plans of the solutions.
@@ -140,6 +143,7 @@ impl Kernels {
         });
         let evaluations = factorised.as_ref().filter(|_| is_fused);
         let evaluations = evaluations.map(|factorised| evaluations_of(model, factorised));
+        let evaluations = evaluations.unwrap_or_default();
         if let Some([rigid, compliant]) = factorised {
             plans = Some(Plans {
                 rigid: rigid.plan.clone(),
@@ -186,7 +190,8 @@ impl Kernels {
                 vec![scene.space.arena.sum(powers)]
             }),
             readouts: Readouts::new(scene, model),
-            evaluations: evaluations.unwrap_or_default(),
+            rate_columns: rate_columns(model, &evaluations),
+            evaluations,
             gains: (!is_fused).then(gains),
             solvers,
             plans,

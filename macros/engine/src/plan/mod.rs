@@ -48,6 +48,7 @@ mod augmented;
 pub mod candidates;
 mod carried;
 mod collect;
+pub mod derivatives;
 pub mod eliminate;
 mod fill;
 mod inverse;

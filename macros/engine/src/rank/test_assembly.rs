@@ -191,6 +191,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         switches: Vec::new(),
         independence: Independence::default(),
         asked: Vec::new(),
+        derived_by: Vec::new(),
         coordinates: Coordinates::Bodies,
     }
 }
