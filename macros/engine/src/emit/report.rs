@@ -46,6 +46,10 @@ pub fn costs(kernels: &Kernels) -> Vec<(String, Cost)> {
     if !kernels.readouts.energies.is_empty() {
         costs.push(("power".into(), of(&kernels.power)));
     }
+    for columns in &kernels.rate_columns {
+        let name = format!("derivatives {}", terms_name(columns.terms));
+        costs.push((name, of(&columns.kernel)));
+    }
     for solver in &kernels.solvers {
         let solve = Cost::of(&solver.arena, &solver.solution, Stage::RightHandSide);
         let suffix = if solver.terms == Terms::Compliant {
