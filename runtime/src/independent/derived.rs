@@ -173,15 +173,57 @@ impl<M: JointRates, const N: usize, S: Real> Derived<M, N, S> {
         &self,
         partition: &Partition<M, N, S>,
         along: &[S],
+        rates: M::JointVelocities<S>,
+    ) -> M::JointVelocities<S> {
+        let rates = self.following(partition, along, rates);
+        let mut changes = self.sum(By::Rates, rates.as_slice());
+        let by_positions = self.sum(By::Positions, along);
+        add(changes.as_mut_slice(), S::one(), by_positions.as_slice());
+        changes
+    }
+
+    /// What rates change by with a displacement, beside what they change by themselves: the chosen
+    /// ones stay, and the others follow.
+    fn following(
+        &self,
+        partition: &Partition<M, N, S>,
+        along: &[S],
         mut rates: M::JointVelocities<S>,
     ) -> M::JointVelocities<S> {
         let following = self.sum(By::Following, along);
         add(rates.as_mut_slice(), S::one(), following.as_slice());
         self.without_chosen(partition, &mut rates);
-        let mut changes = self.sum(By::Rates, rates.as_slice());
-        let by_positions = self.sum(By::Positions, along);
-        add(changes.as_mut_slice(), S::one(), by_positions.as_slice());
-        changes
+        rates
+    }
+
+    /// What positions and rates of all joints change by along a chosen coordinate or rate.
+    pub(super) fn changes(
+        &self,
+        following: Option<&Partition<M, N, S>>,
+        along: Along,
+    ) -> [M::JointVelocities<S>; 2] {
+        let none = M::JointVelocities::<S>::zeros();
+        let column = |number: usize| match following {
+            Some(partition) => partition.columns.get(number).copied().unwrap_or(none),
+            None => {
+                let mut unit = none;
+                let place = self.places.get(number).copied();
+                let number = place.and_then(|place| unit.as_mut_slice().get_mut(place));
+                if let Some(number) = number {
+                    *number = S::one();
+                }
+                unit
+            }
+        };
+        match (along, following) {
+            (Along::Position(number), None) => [column(number), none],
+            (Along::Position(number), Some(partition)) => {
+                let column = column(number);
+                [column, self.following(partition, column.as_slice(), none)]
+            }
+            (Along::Rate(number), _) => [none, column(number)],
+            (Along::Value(_), _) => [none, none],
+        }
     }
 
     /// Takes away the motion that has the chosen ones of these rates.

@@ -12,6 +12,7 @@ use super::elimination::at;
 use super::equations::{Factors, not_finite};
 use super::linearised::Linearised;
 use super::partition::{Partition, joint_rates};
+use super::readings::Moving;
 use super::varied::Adjusted;
 use crate::error::{Fault, LeavesOut};
 use crate::forward::{Forward, Lifted, lifted};
@@ -43,6 +44,9 @@ enum Part {
     Rates,
     Values,
 }
+
+/// A column of a part, and the direction that it belongs to.
+type Column = (Part, usize, Along);
 
 /// Efforts and readings along directions.
 type Slopes<S, const N: usize, const P: usize> = ([Lifted<S>; N], [Lifted<S>; P]);
@@ -180,9 +184,29 @@ where
         let rates = (0..N).map(|number| (Part::Rates, number, Along::Rate(number)));
         let values = values.iter().enumerate();
         let values = values.map(|(number, &value)| (Part::Values, number, value.into()));
-        let columns = positions.chain(rates).chain(values);
-        let mut columns = columns.filter(|&(.., along)| P > 0 || !is_known(along));
+        let coordinates = positions.chain(rates);
         let constants = lifted(&self.constants);
+        // Readings along coordinates and rates, by the kernel where it is there.
+        let mut are_read = false;
+        if P > 0
+            && let Some(derived) = &derived
+        {
+            are_read = true;
+            let moving = Moving::new(self, state);
+            let time = Forward::fixed(self.equations.time);
+            let mut columns = coordinates.clone();
+            loop {
+                let columns: [_; LANES] = from_fn(|_| columns.next());
+                let [Some(_), ..] = columns else { break };
+                let directions = columns.map(|column| column.map(|(.., along)| along));
+                let bodies = moving.along(derived, following, &directions);
+                let readings = read(&View::new(&constants, time, &bodies));
+                linear.put_readings(&columns, &readings);
+            }
+        }
+        let columns = coordinates.chain(values);
+        let is_read = |along| P == 0 || are_read && !matches!(along, Along::Value(_));
+        let mut columns = columns.filter(|&(.., along)| !is_read(along) || !is_known(along));
         loop {
             let columns: [_; LANES] = from_fn(|_| columns.next());
             let [Some(_), ..] = columns else { break };
@@ -200,23 +224,17 @@ where
             if let Some(mass) = &mass {
                 mass.solve_each(&mut outcomes);
             }
-            let readings = readings.map(|reading| reading.derivatives());
+            if P > 0 {
+                linear.put_readings(&columns, &readings);
+            }
             for (lane, (part, column, along)) in columns.into_iter().flatten().enumerate() {
-                let slopes = &mut linear;
-                match part {
-                    Part::Positions => {
-                        put(&mut slopes.readings_by_positions, column, &readings, lane);
-                    }
-                    Part::Rates => put(&mut slopes.readings_by_rates, column, &readings, lane),
-                    Part::Values => put(&mut slopes.readings_by_values, column, &readings, lane),
-                }
                 if is_known(along) {
                     continue;
                 }
                 match part {
-                    Part::Positions => put(&mut slopes.by_positions, column, &outcomes, lane),
-                    Part::Rates => put(&mut slopes.by_rates, column, &outcomes, lane),
-                    Part::Values => put(&mut slopes.by_values, column, &outcomes, lane),
+                    Part::Positions => put(&mut linear.by_positions, column, &outcomes, lane),
+                    Part::Rates => put(&mut linear.by_rates, column, &outcomes, lane),
+                    Part::Values => put(&mut linear.by_values, column, &outcomes, lane),
                 }
             }
         }
@@ -306,6 +324,27 @@ where
         counted.for_each(|(place, &number)| *place = Forward::fixed(number));
         let time = Forward::fixed(self.equations.time);
         read(&View::new(&constants, time, &still))
+    }
+}
+
+impl<const N: usize, const K: usize, const P: usize, S: Real> Linearised<N, K, P, S> {
+    /// Writes the readings along some directions as their columns.
+    fn put_readings(&mut self, columns: &[Option<Column>; LANES], readings: &[Lifted<S>; P]) {
+        let readings = readings.map(|reading| reading.derivatives());
+        for (lane, column) in columns.iter().enumerate() {
+            match *column {
+                Some((Part::Positions, column, _)) => {
+                    put(&mut self.readings_by_positions, column, &readings, lane);
+                }
+                Some((Part::Rates, column, _)) => {
+                    put(&mut self.readings_by_rates, column, &readings, lane);
+                }
+                Some((Part::Values, column, _)) => {
+                    put(&mut self.readings_by_values, column, &readings, lane);
+                }
+                None => {}
+            }
+        }
     }
 }
 

@@ -52,6 +52,7 @@ mod momentum;
 mod partition;
 mod places;
 mod points;
+mod readings;
 mod regressor;
 #[cfg(feature = "std")]
 mod spectrum;

@@ -48,6 +48,8 @@ pub trait JointCoordinates: Mechanism {
 
     /// What [`JointCoordinates::derivatives`] gives.
     type Derivatives<S: Scalar>: Array<S>;
+    /// What [`JointCoordinates::motions_along`] gives.
+    type MotionsAlong<S: Scalar>: Array<S>;
     /// What [`JointCoordinates::adjoint`] gives.
     type Adjoint<S: Scalar>: Array<S>;
 
@@ -115,6 +117,18 @@ pub trait JointCoordinates: Mechanism {
         _time: S,
         _state: &Self::JointState<S>,
     ) -> Self::Derivatives<S> {
+        Array::zeros()
+    }
+
+    /// With [`JointCoordinates::derivatives`], what the velocities of the bodies change by, in the
+    /// order and the axes of [`Mechanism::Velocities`]: along each rate, and then along the position
+    /// of each joint. Along a rate they are also how its position displaces the bodies. Behind them
+    /// stands what auxiliary variables change by along each position.
+    fn motions_along<S: Scalar>(
+        _constants: &Self::JointConstants<S>,
+        _time: S,
+        _state: &Self::JointState<S>,
+    ) -> Self::MotionsAlong<S> {
         Array::zeros()
     }
 

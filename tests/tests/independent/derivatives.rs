@@ -296,7 +296,7 @@ fn everything_that_a_tree_may_have() -> Result<(), Fault> {
             parameters.as_mut_slice()[handle.index()] = value;
         }
         weighed::<Crawler>(&parameters, time, &one, &mut noise);
-        // Readings take numbers that carry derivatives, and the rest is that of the kernel.
+        // Of coordinates and rates the kernel has them as well.
         let found = with.linearise(&one, [h.torque, h.long], |view| [view.position(h.slide).x])?;
         let wanted =
             without.linearise(&two, [g.torque, g.long], |view| [view.position(g.slide).x])?;
@@ -305,6 +305,22 @@ fn everything_that_a_tree_may_have() -> Result<(), Fault> {
         }
         assert!((found.c::<26>() - wanted.c::<26>()).amax() < 1e-13);
         assert!((found.d() - wanted.d()).amax() < 1e-13);
+        macro_rules! read {
+            ($space:expr, $state:expr, $h:expr) => {
+                $space.linearise($state, [], |view| {
+                    let (tail, nut) = (view.angular_velocity($h.tail), view.velocity($h.nut));
+                    [
+                        tail.x,
+                        nut.y,
+                        view.angle($h.thread),
+                        view.velocity($h.tail).z,
+                    ]
+                })?
+            };
+        }
+        let (found, wanted) = (read!(with, &one, h), read!(without, &two, g));
+        let (found, wanted) = (found.c::<26>(), wanted.c::<26>());
+        assert!((found - wanted).amax() < 1e-13 * wanted.amax());
         // Inputs move no body, but forces.
         let found = with.linearise(&one, [h.torque, h.push], |view| [view.power()])?;
         let wanted = without.linearise(&two, [g.torque, g.push], |view| [view.power()])?;
@@ -360,6 +376,25 @@ fn loops_and_drivers() -> Result<(), Fault> {
             (&with, &one, [h.torque, h.wind, h.crank]),
             (&without, &two, [g.torque, g.wind, g.crank]),
         )?;
+        // Readings of places, velocities and angular velocities, which go with the loops.
+        macro_rules! read {
+            ($space:expr, $state:expr, $h:expr) => {
+                $space.linearise($state, [$h.torque, $h.crank], |view| {
+                    let (turning, velocity) =
+                        (view.angular_velocity($h.wide), view.velocity($h.weight));
+                    [
+                        view.position($h.upper).x,
+                        velocity.z,
+                        turning.z,
+                        view.angle($h.knee),
+                    ]
+                })?
+            };
+        }
+        let (found, wanted) = (read!(with, &one, h), read!(without, &two, g));
+        let (found, wanted) = ((found.c::<4>(), found.d()), (wanted.c::<4>(), wanted.d()));
+        assert!((found.0 - wanted.0).amax() < 1e-13 * wanted.0.amax());
+        assert!((found.1 - wanted.1).amax() < 1e-13 * wanted.1.amax().max(1.0));
     }
     Ok(())
 }

@@ -11,9 +11,10 @@
 
 use super::candidates::Method;
 use super::joint_rates::{Sums, Wanted};
+use super::kernels::bodies;
 use super::rates::coordinate_rates;
 use super::system::Reduced;
-use crate::model::{Asked, Model, Number};
+use crate::model::{Asked, BodyKind, Model, Number};
 use crate::plan::derivatives::is_smooth;
 use crate::plan::eliminate::Factors;
 use crate::plan::kernels::relative;
@@ -35,6 +36,11 @@ use crate::symbolic::tangent::{Direction, along, with_inputs};
 pub struct Derivatives {
     /// The outputs.
     pub kernel: Kernel,
+    /// What the velocities of the bodies change by, linear ones in global axes and angular ones in
+    /// principal axes, body by body: along each rate, which is how the bodies themselves are
+    /// displaced along its position, and then along each position. Behind them what the auxiliary
+    /// variables change by along each position.
+    pub motions: Kernel,
     /// The places among the values of the mechanism of the inputs and parameters by which it is
     /// differentiated.
     pub values: Vec<usize>,
@@ -95,7 +101,12 @@ impl Derivatives {
         let sums = &Sums::of(&reduced.links);
         let values = model.derived_values();
         let kernel = cheapest(reduced, |reduced, road| kernel(model, reduced, sums, road))?;
-        Some(Self { kernel, values })
+        let motions = motions(model, reduced.clone(), sums);
+        Some(Self {
+            kernel,
+            motions,
+            values,
+        })
     }
 }
 
@@ -194,6 +205,40 @@ fn kernel(model: &Model, mut reduced: Reduced, sums: &Sums, road: Road) -> Kerne
         arena: reduced.scene.space.arena,
         outputs,
     };
+    kernel.gather(&[]);
+    kernel
+}
+
+fn motions(model: &Model, mut reduced: Reduced, sums: &Sums) -> Kernel {
+    let directions = reduced.directions(sums, &[]);
+    let counters = 2 * reduced.links.turns + reduced.links.rest;
+    let counters = counters..counters + reduced.scene.counters.len();
+    let counted: Vec<Input> = counters
+        .map(|place| Input::Coordinate(place as u32))
+        .collect();
+    let Kernel {
+        mut arena,
+        outputs: read,
+    } = bodies(&reduced, model);
+    let mut velocities = Vec::new();
+    let mut read = &read[..];
+    for body in &model.bodies {
+        let (rotation, velocity) = match body.kind {
+            BodyKind::Rigid => (9, 6),
+            BodyKind::Particle => (0, 3),
+        };
+        velocities.extend(&read[3..6]);
+        velocities.extend(&read[6 + rotation..3 + rotation + velocity]);
+        read = &read[3 + rotation + velocity..];
+    }
+    let all = [&directions.rates[..], &directions.positions].concat();
+    let mut outputs = along(&mut arena, &velocities, &all).concat();
+    let of_counted = directions.positions.iter().flat_map(|direction| {
+        let change = |input| direction.get(input).copied().unwrap_or(Arena::ZERO);
+        counted.iter().map(change)
+    });
+    outputs.extend(of_counted);
+    let mut kernel = Kernel { arena, outputs };
     kernel.gather(&[]);
     kernel
 }

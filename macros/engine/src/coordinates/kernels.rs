@@ -257,7 +257,7 @@ fn solver(mut reduced: Reduced, terms: Terms) -> Solver {
 }
 
 /// The bodies, by the way that takes fewer operations.
-fn bodies(reduced: &Reduced, model: &Model) -> Kernel {
+pub(super) fn bodies(reduced: &Reduced, model: &Model) -> Kernel {
     let arena = reduced.scene.space.arena.clone();
     let stepwise = read(arena, reduced, &reduced.charts, model);
     let mut arena = stepwise.arena.clone();

@@ -84,8 +84,16 @@ impl Writer<'_, JointKernels> {
     /// The accelerations with their derivatives; without these, the type of no number.
     pub(super) fn derivatives(&mut self) -> TokenStream {
         let (facade, kernels) = (self.facade, self.kernels);
-        let Some(Derivatives { kernel, values }) = &kernels.derivatives else {
-            return quote!(type Derivatives<__S: #facade::Scalar> = [__S; 0];);
+        let Some(Derivatives {
+            kernel,
+            motions,
+            values,
+        }) = &kernels.derivatives
+        else {
+            return quote! {
+                type Derivatives<__S: #facade::Scalar> = [__S; 0];
+                type MotionsAlong<__S: #facade::Scalar> = [__S; 0];
+            };
         };
         let (none, unpack, arguments) = (TokenStream::new(), Self::unpack(), arguments());
         let StraightLine {
@@ -93,8 +101,12 @@ impl Writer<'_, JointKernels> {
             outputs,
         } = self.of_state("__derivatives", kernel, &none, &none);
         let length = outputs.len();
+        let along = self.of_state("__motions_along", motions, &none, &none);
+        let (along_statements, along_outputs) = (along.statements, along.outputs);
+        let along_length = along_outputs.len();
         quote! {
             type Derivatives<__S: #facade::Scalar> = [__S; #length];
+            type MotionsAlong<__S: #facade::Scalar> = [__S; #along_length];
             const DERIVED_BY: ::core::option::Option<&'static [usize]> =
                 ::core::option::Option::Some(&[#(#values),*]);
 
@@ -102,6 +114,12 @@ impl Writer<'_, JointKernels> {
                 #unpack
                 #statements
                 [#(#outputs),*]
+            }
+
+            fn motions_along<__S: #facade::Scalar>(#arguments) -> Self::MotionsAlong<__S> {
+                #unpack
+                #along_statements
+                [#(#along_outputs),*]
             }
         }
     }
