@@ -41,12 +41,19 @@ pub struct Derivatives {
 pub(super) struct Directions {
     positions: Vec<Direction>,
     rates: Vec<Direction>,
+    states: Vec<Direction>,
     inputs: Vec<Direction>,
 }
 
 impl Directions {
     pub(super) fn all(&self) -> Vec<Direction> {
         let all = [&self.positions, &self.rates, &self.inputs];
+        all.into_iter().flatten().cloned().collect()
+    }
+
+    /// The same, with the user's own states before the inputs.
+    pub(super) fn with_states(&self) -> Vec<Direction> {
+        let all = [&self.positions, &self.rates, &self.states, &self.inputs];
         all.into_iter().flatten().cloned().collect()
     }
 }
@@ -174,12 +181,24 @@ pub(super) fn solved(
     efforts: Vec<Expr>,
     lower: Vec<Expr>,
 ) -> Vec<Expr> {
+    let [accelerations, _] = solved_with_multipliers(arena, sums, factors, efforts, lower);
+    accelerations
+}
+
+/// The same, and the multipliers.
+pub(super) fn solved_with_multipliers(
+    arena: &mut Arena,
+    sums: &Sums,
+    factors: &Factors,
+    efforts: Vec<Expr>,
+    lower: Vec<Expr>,
+) -> [Vec<Expr>; 2] {
     let mut right = sums.forces(arena, efforts);
     let velocities = right.len();
     right.extend(lower);
     let mut solution = factors.solve(arena, right);
-    solution.truncate(velocities);
-    sums.rates(arena, &solution)
+    let multipliers = solution.split_off(velocities);
+    [sums.rates(arena, &solution), multipliers]
 }
 
 /// The inputs that stand in the forces as they are, and not in the rows: symbol and place among the
@@ -250,18 +269,25 @@ impl Reduced {
             direction
         });
         let positions = positions.collect();
+        let first = 2 * turns + self.links.rest + self.scene.counters.len();
+        let states = (0..self.scene.motion.states.len()).map(|state| {
+            let place = Input::Coordinate((first + state) as u32);
+            Direction::from([(place, Arena::ONE)])
+        });
         let inputs = inputs.iter();
         let inputs =
             inputs.map(|&(symbol, _)| Direction::from([(Input::Varying(symbol), Arena::ONE)]));
         Directions {
             positions,
             rates,
+            states: states.collect(),
             inputs: inputs.collect(),
         }
     }
 
     /// The factors of the equations of motion.
     pub(super) fn factors(&mut self) -> Factors {
+        // Without a compliance they are the same, whatever the terms.
         let (rows, _) = self.rows(Terms::Plain);
         let elimination = self.elimination(Terms::Plain, &rows);
         let Self { links, scene, .. } = self;
