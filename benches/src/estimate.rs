@@ -235,6 +235,9 @@ fn by_joints<M: HasMassMatrix + HasInverse + Default>() -> Result<Vec<Estimated>
     let mut numbers = M::JointVelocities::<f64>::zeros();
     let places = numbers.as_mut_slice().iter_mut().enumerate();
     places.for_each(|(place, number)| *number = 0.1 * (place + 1) as f64);
+    let mut weights = M::AdjointWeights::<f64>::zeros();
+    let places = weights.as_mut_slice().iter_mut().enumerate();
+    places.for_each(|(place, number)| *number = 0.1 * (place + 1) as f64);
     let asked = |name| (M::JOINT_REPORT.asked, name);
     let kernels = [
         rates,
@@ -249,7 +252,7 @@ fn by_joints<M: HasMassMatrix + HasInverse + Default>() -> Result<Vec<Estimated>
             M::derivatives(constants, 0.0, x)
         })?,
         given(asked("adjoint"), states, move |x| {
-            M::adjoint(constants, 0.0, x, black_box(&numbers))
+            M::adjoint::<f64, Plain>(constants, &coefficients, 0.0, x, black_box(&weights))
         })?,
     ];
     Ok(named("joints", kernels))

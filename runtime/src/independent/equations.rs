@@ -380,14 +380,6 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         self.equations.places.take(numbers.as_slice())
     }
 
-    /// Numbers of all rates, of the chosen ones; zeros for the others.
-    #[cfg(feature = "std")]
-    pub(crate) fn placed(&self, chosen: &[S; N]) -> M::JointVelocities<S> {
-        let mut numbers = M::JointVelocities::zeros();
-        self.equations.places.put(chosen, numbers.as_mut_slice());
-        numbers
-    }
-
     /// What the kernels take that does not change with a state.
     #[cfg(feature = "std")]
     pub(crate) const fn joint_constants(&self) -> &M::JointConstants<S> {

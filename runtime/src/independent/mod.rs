@@ -8,7 +8,8 @@
 //! - `equations.rs`: mass matrix and efforts. `points.rs`, `momentum.rs`: Jacobians. `states.rs`:
 //!   the way to states and back; `followed.rs`: the same near a singular configuration.
 //! - `derived.rs`: accelerations with their derivatives by a kernel of their own.
-//! - `directions.rs`: derivatives along coordinates, rates and values.
+//! - `directions.rs`: derivatives along coordinates, rates and values; `whole.rs`: along those of
+//!   all joints, chosen or not.
 //! - `elimination.rs`: Gauss-Jordan, for these equations and for Newton's method.
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions,
 //!   over `spectrum.rs` and `jacobi.rs`;
@@ -62,6 +63,8 @@ mod switched;
 mod trim;
 mod varied;
 mod walk;
+#[cfg(feature = "std")]
+mod whole;
 
 use core::fmt;
 
@@ -83,6 +86,8 @@ pub use lqr::discrete_lqr;
 pub use modes::Mode;
 pub use regressor::INERTIAL_PARAMETERS;
 pub use varied::Varied;
+#[cfg(feature = "std")]
+pub(crate) use whole::{Whole, changes, rates_of_joints};
 
 use self::places::Places;
 use crate::error::{AssemblyFault, Fault, ParameterError};

@@ -185,7 +185,11 @@ fn largest_share<M: JointRates, S: Real>(
 pub(super) fn joint_rates<M: JointRates, S: Scalar>(
     state: &M::JointState<S>,
 ) -> M::JointVelocities<S> {
-    let velocities = state.rates_slice();
+    of_joints::<M, S>(state.rates_slice())
+}
+
+/// What velocities are as rates of the joints.
+pub(super) fn of_joints<M: JointRates, S: Scalar>(velocities: &[S]) -> M::JointVelocities<S> {
     let mut rates = M::JointVelocities::<S>::zeros();
     for (place, rate) in rates.as_mut_slice().iter_mut().enumerate() {
         *rate = at(velocities, place);

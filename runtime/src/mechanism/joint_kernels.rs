@@ -52,6 +52,8 @@ pub trait JointCoordinates: Mechanism {
     type MotionsAlong<S: Scalar>: Array<S>;
     /// What [`JointCoordinates::adjoint`] gives.
     type Adjoint<S: Scalar>: Array<S>;
+    /// What it takes.
+    type AdjointWeights<S: Scalar>: Array<S>;
 
     /// What the coordinates are, and what an evaluation costs.
     const JOINT_REPORT: JointReport;
@@ -147,18 +149,23 @@ pub trait JointCoordinates: Mechanism {
         Array::zeros()
     }
 
-    /// In a tree with `kernels = [adjoint]` the inputs by which there are slopes, by their places
-    /// in [`Report::values`](crate::Report::values).
+    /// With `kernels = [adjoint]` the inputs by which there are slopes, by their places in
+    /// [`Report::values`](crate::Report::values). `None` where an equation that closes a loop has a
+    /// spline, or where [`JointReport::rewraps`] says that angles are put right after a step.
     const ADJOINT_BY: Option<&'static [usize]> = None;
 
-    /// What a weighted sum of the accelerations of the joints' rates changes by: with the position
-    /// of each joint, with each rate, and with the inputs of [`JointCoordinates::ADJOINT_BY`].
-    /// There is no number where that is `None`.
-    fn adjoint<S: Scalar>(
+    /// What a weighted sum of the accelerations of the joints' rates and of the rates of the user's
+    /// own states changes by: with the position of each joint, with each rate, with each of these
+    /// states, and with the inputs of [`JointCoordinates::ADJOINT_BY`]. There is no number where
+    /// that is `None`.
+    ///
+    /// Where equations close loops, it is that of terms without a compliance.
+    fn adjoint<S: Scalar, T: Terms>(
         _constants: &Self::JointConstants<S>,
+        _coefficients: &Self::JointCoefficients<S>,
         _time: S,
         _state: &Self::JointState<S>,
-        _weights: &Self::JointVelocities<S>,
+        _weights: &Self::AdjointWeights<S>,
     ) -> Self::Adjoint<S> {
         Array::zeros()
     }

@@ -145,6 +145,7 @@ macro_rules! __stub_joints {
             type JointVelocities<__S: $crate::Scalar> = [__S; 0];
             type Derivatives<__S: $crate::Scalar> = [__S; 0];
             type Adjoint<__S: $crate::Scalar> = [__S; 0];
+            type AdjointWeights<__S: $crate::Scalar> = [__S; 0];
             const JOINT_REPORT: $crate::mechanism::JointReport = $crate::mechanism::JointReport {
                 motions: &[],
                 closing: &[],

@@ -6,7 +6,9 @@ use core::array::from_fn;
 use core::f64::consts::PI;
 
 use holonom::independent::{IndependentCoordinates, Linearised};
-use holonom::mechanism::{HasInverse, HasMassMatrix, JointRates, ValueHandle};
+use holonom::mechanism::{
+    HasInverse, HasMassMatrix, JointRates, Plain as Rigid, Stabilisation, ValueHandle,
+};
 use holonom::prelude::*;
 use holonom::spline::Spline;
 use holonom::state::Array;
@@ -186,9 +188,15 @@ fn weighed<M: JointRates>(
     mut noise: impl FnMut() -> f64,
 ) {
     let constants = M::prepare_joints(parameters);
-    let mut weights = M::JointVelocities::zeros();
+    let none = Stabilisation {
+        rate: 0.0,
+        position: 0.0,
+        compliance: 0.0,
+    };
+    let coefficients = M::joint_coefficients(&constants, &none, &Array::zeros());
+    let mut weights = M::AdjointWeights::zeros();
     weights.as_mut_slice().fill_with(&mut noise);
-    let found = M::adjoint(&constants, time, state, &weights);
+    let found = M::adjoint::<f64, Rigid>(&constants, &coefficients, time, state, &weights);
     let columns = M::derivatives(&constants, time, state);
     let (weights, columns) = (weights.as_slice(), columns.as_slice());
     let rates = weights.len();
@@ -350,8 +358,8 @@ fn loops_and_drivers() -> Result<(), Fault> {
     let (a, b) = (Looped::new(0.3)?, PlainLooped::new(0.3)?);
     let (h, g) = (Looped::HANDLES, PlainLooped::HANDLES);
     assert_eq!(Looped::DERIVED_BY.map(<[usize]>::len), Some(3));
-    // These are of trees.
-    assert!(Looped::ADJOINT_BY.is_none() && !Looped::HAS_FORWARD && Crawler::HAS_FORWARD);
+    // This is of trees.
+    assert!(!Looped::HAS_FORWARD && Crawler::HAS_FORWARD);
     for seed in 0..20 {
         let mut noise = noise(17 * seed);
         let q: [f64; 2] = from_fn(|_| 0.3 * noise());
@@ -371,7 +379,12 @@ fn loops_and_drivers() -> Result<(), Fault> {
         }
         let (with, one) = standing!(a, h);
         let (without, two) = standing!(b, g);
-        is_taken(&with, &one, &Looped::prepare_joints(&a.parameters()?));
+        let mut parameters = a.parameters()?;
+        is_taken(&with, &one, &Looped::prepare_joints(&parameters));
+        for (handle, value) in [h.torque, h.wind].into_iter().zip(inputs) {
+            parameters.as_mut_slice()[handle.index()] = value;
+        }
+        weighed::<Looped>(&parameters, time, &one, &mut noise);
         compared(
             (&with, &one, [h.torque, h.wind, h.crank]),
             (&without, &two, [g.torque, g.wind, g.crank]),

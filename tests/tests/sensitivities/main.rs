@@ -4,6 +4,7 @@
 
 mod adjoint;
 mod at_rest;
+mod backwards;
 mod closed_forms;
 mod differences;
 mod estimated;

@@ -120,16 +120,6 @@ struct Rows {
     values: Vec<Expr>,
 }
 
-/// The directions along which the user's own states change by one.
-fn along_states(model: &Model, reduced: &Reduced) -> Vec<Direction> {
-    let first = 2 * reduced.links.turns + reduced.links.rest + reduced.scene.counters.len();
-    let places = first..first + model.states.len();
-    let inputs = places.map(|place| Input::Coordinate(place as u32));
-    inputs
-        .map(|input| Direction::from([(input, Arena::ONE)]))
-        .collect()
-}
-
 /// The directions along which inputs and parameters change by one: with all symbols that have them.
 fn along_values(model: &Model, arena: &mut Arena) -> Vec<Direction> {
     let known = |symbol: usize| match model.number(symbol) {
@@ -149,7 +139,6 @@ fn along_values(model: &Model, arena: &mut Arena) -> Vec<Direction> {
 
 fn kernel(model: &Model, mut reduced: Reduced, sums: &Sums, road: Road) -> Kernel {
     let mut directions = reduced.directions(sums, &[]);
-    directions.states = along_states(model, &reduced);
     directions.inputs = along_values(model, &mut reduced.scene.space.arena);
     let rows = reduced.split_rows(sums);
     let solution = reduced.solve(Terms::Plain);
@@ -251,12 +240,24 @@ pub(super) fn solved(
     efforts: Vec<Expr>,
     lower: Vec<Expr>,
 ) -> Vec<Expr> {
+    let [accelerations, _] = solved_with_multipliers(arena, sums, factors, efforts, lower);
+    accelerations
+}
+
+/// The same, and the multipliers.
+pub(super) fn solved_with_multipliers(
+    arena: &mut Arena,
+    sums: &Sums,
+    factors: &Factors,
+    efforts: Vec<Expr>,
+    lower: Vec<Expr>,
+) -> [Vec<Expr>; 2] {
     let mut right = sums.forces(arena, efforts);
     let velocities = right.len();
     right.extend(lower);
     let mut solution = factors.solve(arena, right);
-    solution.truncate(velocities);
-    sums.rates(arena, &solution)
+    let multipliers = solution.split_off(velocities);
+    [sums.rates(arena, &solution), multipliers]
 }
 
 /// The inputs that stand in the forces as they are, and not in the rows: symbol and place among the
@@ -328,19 +329,25 @@ impl Reduced {
             direction
         });
         let positions = positions.collect();
+        let first = 2 * turns + self.links.rest + self.scene.counters.len();
+        let states = (0..self.scene.motion.states.len()).map(|state| {
+            let place = Input::Coordinate((first + state) as u32);
+            Direction::from([(place, Arena::ONE)])
+        });
         let inputs = inputs.iter();
         let inputs =
             inputs.map(|&(symbol, _)| Direction::from([(Input::Varying(symbol), Arena::ONE)]));
         Directions {
             positions,
             rates,
-            states: Vec::new(),
+            states: states.collect(),
             inputs: inputs.collect(),
         }
     }
 
     /// The factors of the equations of motion.
     pub(super) fn factors(&mut self) -> Factors {
+        // Without a compliance they are the same, whatever the terms.
         let (rows, _) = self.rows(Terms::Plain);
         let elimination = self.elimination(Terms::Plain, &rows);
         let Self { links, scene, .. } = self;

@@ -120,7 +120,7 @@ impl Sums {
     }
 
     /// What does work on the rates of the joints, of what does on the velocities.
-    fn efforts(&self, arena: &mut Arena, mut along: Vec<Expr>) -> Vec<Expr> {
+    pub(super) fn efforts(&self, arena: &mut Arena, mut along: Vec<Expr>) -> Vec<Expr> {
         for place in (0..along.len()).rev() {
             if let Some(against) = self.against[place] {
                 along[against] = arena.add(along[against], along[place]);

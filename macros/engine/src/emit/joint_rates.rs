@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::joint_report::option;
 use super::straight_line::StraightLine;
-use super::writer::Writer;
+use super::writer::{Writer, name as terms_name};
 use crate::coordinates::adjoint::Adjoint;
 use crate::coordinates::derivatives::Derivatives;
 use crate::coordinates::joint_rates::JointRates;
@@ -124,19 +124,62 @@ impl Writer<'_, JointKernels> {
         }
     }
 
-    /// What a weighted sum of accelerations changes by; without it, the type of no number.
+    /// What a weighted sum of rates changes by; without it, the types of no number.
     pub(super) fn adjoint(&mut self) -> TokenStream {
         let (facade, kernels) = (self.facade, self.kernels);
-        let Some(Adjoint { kernel, inputs }) = &kernels.adjoint else {
-            return quote!(type Adjoint<__S: #facade::Scalar> = [__S; 0];);
+        let Some(Adjoint {
+            kernels,
+            weights,
+            inputs,
+        }) = &kernels.adjoint
+        else {
+            return quote! {
+                type Adjoint<__S: #facade::Scalar> = [__S; 0];
+                type AdjointWeights<__S: #facade::Scalar> = [__S; 0];
+            };
         };
-        let (function, length) = self.of_rates("adjoint", kernel, &quote!(Adjoint));
+        // Weights are read as accelerations are.
+        let given = local("accelerations");
+        let (arguments, passed) = (self.arguments(), Self::passed());
+        let bodies = kernels.iter().map(|(terms, kernel)| {
+            let frame = self.frame(
+                format!("__adjoint_{}", terms_name(*terms)),
+                quote!(#arguments #given: &[__S; #weights],),
+                quote!(#passed #given,),
+            );
+            let StraightLine {
+                statements,
+                outputs,
+            } = self.line_of(kernel, &frame);
+            (outputs.len(), quote!(#statements [#(#outputs),*]))
+        });
+        let bodies: Vec<(usize, TokenStream)> = bodies.collect();
+        let length = bodies.first().map_or(0, |(length, _)| *length);
+        let body = match &bodies[..] {
+            [(_, plain), (_, stabilised), ..] => {
+                quote!(if __T::STABILISED { #stabilised } else { #plain })
+            }
+            _ => bodies.into_iter().map(|(_, body)| body).collect(),
+        };
+        let unpack = Self::unpack();
+        let [constants, coefficients, time, state] =
+            ["constants", "coefficients", "time", "state"].map(local);
         quote! {
             type Adjoint<__S: #facade::Scalar> = [__S; #length];
+            type AdjointWeights<__S: #facade::Scalar> = [__S; #weights];
             const ADJOINT_BY: ::core::option::Option<&'static [usize]> =
                 ::core::option::Option::Some(&[#(#inputs),*]);
 
-            #function
+            fn adjoint<__S: #facade::Scalar, __T: #facade::__private::Terms>(
+                #constants: &Self::JointConstants<__S>,
+                #coefficients: &Self::JointCoefficients<__S>,
+                #time: __S,
+                #state: &Self::JointState<__S>,
+                #given: &Self::AdjointWeights<__S>,
+            ) -> Self::Adjoint<__S> {
+                #unpack
+                #body
+            }
         }
     }
 

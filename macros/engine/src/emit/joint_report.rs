@@ -90,7 +90,7 @@ impl Writer<'_, JointKernels> {
         let derivatives = self.kernels.derivatives.iter();
         let derivatives = derivatives.map(|found| (Asked::Derivatives, &found.kernel));
         let adjoint = self.kernels.adjoint.iter();
-        let adjoint = adjoint.map(|found| (Asked::Adjoint, &found.kernel));
+        let adjoint = adjoint.filter_map(|found| Some((Asked::Adjoint, &found.kernels.first()?.1)));
         let rates = self.kernels.joint_rates.iter();
         let forward = rates.filter_map(|of| Some((Asked::Forward, of.forward.as_ref()?)));
         let all = asked.chain(forward).chain(derivatives).chain(adjoint);

@@ -1,41 +1,37 @@
 //! The way back: what the cost from a step on changes by with the state there.
 
 use core::cell::OnceCell;
+use core::mem::swap;
 use std::vec::Vec;
 
 use super::instant::{Instant, Lazy};
+use super::slopes::Slopes;
 use super::transposed::Transposed;
 use super::{Adjoint, ByJoints, Gradient, LANES, Steps, are_inputs, by_joints};
 use crate::error::Fault;
 use crate::formulation::Formulation;
 use crate::forward::{Forward, Lifted, lifted};
-use crate::independent::{Along, IndependentCoordinates};
+use crate::independent::{Along, IndependentCoordinates, Whole};
 use crate::integrate::{FixedStep, OneStep};
 use crate::math::scalar::Real;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
 use crate::sensitivity::Differentiable;
+use crate::state::vector::Array as _;
 
-/// What a direction belongs to.
+/// What a direction belongs to, beside the state.
 #[derive(Clone, Copy)]
-enum Part {
-    Control,
-    Value,
-    Position,
-    Rate,
-}
-
-impl Part {
-    const fn is_of_state(self) -> bool {
-        matches!(self, Self::Position | Self::Rate)
-    }
+enum Column {
+    Control(usize),
+    Value(usize),
+    State(Whole),
 }
 
 /// Directions that are taken at once.
 struct Chunk {
-    directions: [Option<Along>; LANES],
-    /// What each belongs to, and its number there.
-    parts: Vec<(Part, usize)>,
+    directions: [Option<Whole>; LANES],
+    /// What each belongs to.
+    columns: Vec<Column>,
     is_of_state: bool,
 }
 
@@ -65,7 +61,11 @@ where
     /// With the controls and the time of a step.
     space: IndependentCoordinates<M, N, S>,
     road: Road<M, F, S>,
-    sums: Sums<N, U, P, S>,
+    cost: S,
+    by_values: [S; P],
+    /// By the state at the instant behind, and by the one at hand.
+    after: Slopes<M, S>,
+    here: Slopes<M, S>,
 }
 
 impl<'a, M, F, K, const N: usize, const U: usize, const P: usize, S>
@@ -92,41 +92,63 @@ where
                     Road::ByNumbers(by_joints(lifted(&space.parameters), carrying)?)
                 }
             },
-            chunks: [false, true].map(|is_end| chunks::<M, N>(&held, &values, is_end)),
+            chunks: [false, true].map(|is_end| chunks::<M>(&held, &values, is_end)),
             adjoint,
             held,
             values,
             space,
-            sums: Sums {
-                cost: S::zero(),
-                by_positions: [S::zero(); N],
-                by_rates: [S::zero(); N],
-                by_controls: [S::zero(); U],
-                by_values: [S::zero(); P],
-            },
+            cost: S::zero(),
+            by_values: [S::zero(); P],
+            after: Slopes::zeros(),
+            here: Slopes::zeros(),
         })
     }
 
+    /// All of it, by the coordinates that are chosen at the start: the others follow, and what a
+    /// value changes there counts.
     pub(super) fn found(
-        self,
+        mut self,
         by_controls: Vec<[S; U]>,
         states: Vec<M::JointState<S>>,
-    ) -> Gradient<M::JointState<S>, N, U, P, S> {
-        Gradient {
-            cost: self.sums.cost,
-            by_controls,
-            by_positions: self.sums.by_positions.into(),
-            by_rates: self.sums.by_rates.into(),
-            by_values: self.sums.by_values,
-            states,
+    ) -> Result<Gradient<M::JointState<S>, N, U, P, S>, Fault> {
+        let (mut by_positions, mut by_rates) = ([S::zero(); N], [S::zero(); N]);
+        if let Some(start) = states.first() {
+            let mut space = *self.adjoint.space;
+            space.set_time(self.adjoint.time(0));
+            let values = self.values.iter().map(|value| Along::Value(value.index()));
+            let chosen = (0..N).map(Along::Position).chain((0..N).map(Along::Rate));
+            let all: Vec<Along> = values.chain(chosen).collect();
+            let state = by_positions.iter_mut().chain(&mut by_rates);
+            let mut places = self.by_values.iter_mut().chain(state);
+            for columns in all.chunks(LANES) {
+                let mut directions = [None; LANES];
+                for (direction, &column) in directions.iter_mut().zip(columns) {
+                    *direction = Some(column);
+                }
+                let there = space.standing_state(start, &directions)?;
+                let slopes = self.after.along(&there.state);
+                // Slopes first: where they end, no place is passed.
+                for (slope, place) in slopes.into_iter().take(columns.len()).zip(&mut places) {
+                    *place = *place + slope;
+                }
+            }
         }
+        Ok(Gradient {
+            cost: self.cost,
+            by_controls,
+            by_positions: by_positions.into(),
+            by_rates: by_rates.into(),
+            by_values: self.by_values,
+            states,
+        })
     }
 
-    /// Goes back before a step, or to the end of all; the derivatives by its controls.
+    /// Goes back before a step to the next state, or to the end of all; the derivatives by its
+    /// controls.
     pub(super) fn before(
         &mut self,
         number: usize,
-        state: &M::JointState<S>,
+        (state, next): (&M::JointState<S>, Option<&M::JointState<S>>),
         controls: Option<&[S; U]>,
         cost: &impl Fn(&Instant<'_, M, U, S>) -> Lifted<S>,
     ) -> Result<[S; U], Fault> {
@@ -135,12 +157,8 @@ where
         if let Some(controls) = controls {
             space.set_values(held, controls)?;
         }
-        let mut sums = Sums {
-            by_controls: [S::zero(); U],
-            by_positions: [S::zero(); N],
-            by_rates: [S::zero(); N],
-            ..self.sums
-        };
+        self.here.clear();
+        let mut by_controls = [S::zero(); U];
         let is_end = controls.is_none();
         let is_stepped = !is_end && matches!(self.road, Road::ByNumbers(_));
         let inputs_alone = are_inputs::<M>(held) && are_inputs::<M>(&self.values);
@@ -158,50 +176,51 @@ where
                 let now = here.cost((number, is_end), held, cost)?;
                 slopes = now.derivatives();
                 if is_first {
-                    sums.cost = sums.cost + now.value();
+                    self.cost = self.cost + now.value();
                 }
                 (is_first, was_read) = (false, here.was_read());
             }
             if is_stepped {
-                let after = (&self.sums.by_positions, &self.sums.by_rates);
-                self.road.through_numbers(
-                    (self.adjoint, inputs_alone),
-                    &here,
-                    after,
-                    &mut slopes,
-                )?;
+                let way = (self.adjoint, inputs_alone);
+                self.road
+                    .through_numbers(way, &here, &self.after, &mut slopes)?;
             }
-            for (&(part, column), slope) in chunk.parts.iter().zip(slopes) {
-                sums.add(part, column, slope);
+            for (&column, slope) in chunk.columns.iter().zip(slopes) {
+                let place = match column {
+                    Column::Control(control) => by_controls.get_mut(control),
+                    Column::Value(value) => self.by_values.get_mut(value),
+                    Column::State(Whole::Position(place)) => {
+                        self.here.positions.as_mut_slice().get_mut(place)
+                    }
+                    Column::State(Whole::Rate(place)) => {
+                        self.here.rates.as_mut_slice().get_mut(place)
+                    }
+                    Column::State(Whole::Own(own)) => self.here.own.get_mut(own),
+                    Column::State(Whole::Value(_)) => None,
+                };
+                if let Some(place) = place {
+                    *place = *place + slope;
+                }
             }
         }
-        if !is_end {
-            self.through_kernel(number, &mut sums);
+        if let Some(next) = next {
+            self.through_kernel(number, next, &mut by_controls);
         }
-        self.sums = sums;
-        Ok(sums.by_controls)
+        swap(&mut self.after, &mut self.here);
+        Ok(by_controls)
     }
 
     /// Adds what a step does, all of it by the kernel.
-    fn through_kernel(&mut self, number: usize, sums: &mut Sums<N, U, P, S>) {
+    fn through_kernel(&mut self, number: usize, next: &M::JointState<S>, by_controls: &mut [S; U]) {
         let Road::ByKernel(transposed) = &mut self.road else {
             return;
         };
-        let space = &self.space;
-        let after = [self.sums.by_positions, self.sums.by_rates].map(|by| space.placed(&by));
-        let before = transposed.before(number, space.joint_constants(), after);
-        let [by_positions, by_rates] = before.state.map(|by| space.chosen_of(&by));
-        for (column, slope) in by_positions.into_iter().enumerate() {
-            sums.add(Part::Position, column, slope);
-        }
-        for (column, slope) in by_rates.into_iter().enumerate() {
-            sums.add(Part::Rate, column, slope);
-        }
-        for (column, &input) in self.held.iter().enumerate() {
-            sums.add(Part::Control, column, before.by(input));
-        }
-        for (column, &input) in self.values.iter().enumerate() {
-            sums.add(Part::Value, column, before.by(input));
+        let constants = self.space.joint_constants();
+        let after = (&self.after, next);
+        let inputs = transposed.before::<F::Terms>(number, constants, after, &mut self.here);
+        let of_values = self.by_values.iter_mut().zip(&self.values);
+        for (place, &input) in by_controls.iter_mut().zip(&self.held).chain(of_values) {
+            *place = *place + inputs.by(input);
         }
     }
 }
@@ -217,7 +236,7 @@ where
         &mut self,
         (adjoint, inputs_alone): (&Adjoint<'_, ByJoints<M, F, S>, K, N>, bool),
         here: &Lazy<'_, M, N, S>,
-        (by_positions, by_rates): (&[S; N], &[S; N]),
+        after: &Slopes<M, S>,
         slopes: &mut [S; LANES],
     ) -> Result<(), Fault>
     where
@@ -226,7 +245,7 @@ where
         let Self::ByNumbers(dynamics) = self else {
             return Ok(());
         };
-        let (there, space) = (here.there()?, here.space());
+        let (there, space) = (here.there(), here.space());
         if inputs_alone {
             dynamics.set_inputs(&M::inputs_of(&there.parameters))?;
         } else {
@@ -236,72 +255,48 @@ where
         let FixedStep { step, scheme } = adjoint.integrator;
         let time = Forward::fixed(space.time());
         scheme.step(dynamics, time, &mut next, Forward::fixed(step))?;
-        let positions = space.positions_of(&next)?;
-        let rates = space.rates_of(&next);
-        let of_rates = rates.iter().zip(by_rates);
-        for (number, &adjoint) in positions.iter().zip(by_positions).chain(of_rates) {
-            for (slope, by) in slopes.iter_mut().zip(number.derivatives()) {
-                *slope = adjoint.fused(by, *slope);
-            }
+        for (slope, by) in slopes.iter_mut().zip(after.along(&next)) {
+            *slope = *slope + by;
         }
         Ok(())
     }
 }
 
-/// What the cost from a step on is, and changes by.
-#[derive(Clone, Copy)]
-struct Sums<const N: usize, const U: usize, const P: usize, S> {
-    cost: S,
-    by_positions: [S; N],
-    by_rates: [S; N],
-    by_controls: [S; U],
-    by_values: [S; P],
-}
-
-impl<const N: usize, const U: usize, const P: usize, S: Real> Sums<N, U, P, S> {
-    fn add(&mut self, part: Part, column: usize, slope: S) {
-        let place = match part {
-            Part::Control => self.by_controls.get_mut(column),
-            Part::Value => self.by_values.get_mut(column),
-            Part::Position => self.by_positions.get_mut(column),
-            Part::Rate => self.by_rates.get_mut(column),
-        };
-        if let Some(place) = place {
-            *place = *place + slope;
-        }
-    }
-}
-
 /// All directions: controls, unless it is the end, values, and the state. There is a chunk where
 /// there are none.
-fn chunks<M, const N: usize>(
+fn chunks<M: JointRates>(
     held: &[ValueHandle<M>],
     values: &[ValueHandle<M>],
     is_end: bool,
 ) -> Vec<Chunk> {
-    let of = |part: Part, values: &[ValueHandle<M>]| -> Vec<_> {
-        let values = values.iter().enumerate();
-        let columns = values.map(|(column, value)| (part, column, Along::Value(value.index())));
-        columns.collect()
-    };
-    let mut columns = of(Part::Control, if is_end { &[] } else { held });
-    columns.extend(of(Part::Value, values));
-    columns.extend((0..N).map(|column| (Part::Position, column, Along::Position(column))));
-    columns.extend((0..N).map(|column| (Part::Rate, column, Along::Rate(column))));
+    let rates = M::JointVelocities::<f64>::zeros().as_slice().len();
+    let held = if is_end { &[] } else { held };
+    let held = held
+        .iter()
+        .enumerate()
+        .map(|(column, value)| (Column::Control(column), Whole::Value(value.index())));
+    let values = values
+        .iter()
+        .enumerate()
+        .map(|(column, value)| (Column::Value(column), Whole::Value(value.index())));
+    let state = (0..rates).map(Whole::Position);
+    let state = state.chain((0..rates).map(Whole::Rate));
+    let state = state.chain((0..M::JOINT_REPORT.states.len()).map(Whole::Own));
+    let state = state.map(|along| (Column::State(along), along));
+    let columns: Vec<(Column, Whole)> = held.chain(values).chain(state).collect();
     let chunks = (0..columns.len().max(1)).step_by(LANES).map(|first| {
-        let columns = columns.iter().skip(first).take(LANES);
-        let parts: Vec<_> = columns
-            .clone()
-            .map(|&(part, column, _)| (part, column))
-            .collect();
+        let of_chunk = columns.iter().skip(first).take(LANES);
         let mut directions = [None; LANES];
-        for (direction, &(.., along)) in directions.iter_mut().zip(columns) {
+        for (direction, &(_, along)) in directions.iter_mut().zip(of_chunk.clone()) {
             *direction = Some(along);
         }
+        let columns: Vec<Column> = of_chunk.map(|&(column, _)| column).collect();
         Chunk {
             directions,
-            is_of_state: parts.iter().all(|(part, _)| part.is_of_state()),
-            parts,
+            is_of_state: columns
+                .iter()
+                .all(|column| matches!(column, Column::State(_))),
+            columns,
         }
     });
     chunks.collect()

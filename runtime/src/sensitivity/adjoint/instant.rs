@@ -8,13 +8,12 @@ use core::ops::Deref;
 use super::LANES;
 use crate::error::Fault;
 use crate::forward::{Forward, Lifted};
-use crate::independent::{Along, IndependentCoordinates, StateAlong, vary};
+use crate::independent::{IndependentCoordinates, StateAlong, Whole, vary};
 use crate::math::scalar::Real;
 use crate::measure::view::View;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::Mechanism;
-use crate::state::vector::MovingState as _;
 
 /// What a cost may read: a [`View`], over numbers that carry derivatives.
 ///
@@ -96,8 +95,8 @@ pub(super) struct Lazy<'a, M: JointRates, const N: usize, S: Real> {
     space: &'a IndependentCoordinates<M, N, S>,
     state: &'a M::JointState<S>,
     positions: &'a Positions<N, S>,
-    directions: &'a [Option<Along>; LANES],
-    there: OnceCell<Option<StateAlong<M, N, LANES, S>>>,
+    directions: &'a [Option<Whole>; LANES],
+    there: OnceCell<StateAlong<M, N, LANES, S>>,
     bodies: OnceCell<Bodies<M, S>>,
     numbers: [OnceCell<[Lifted<S>; N]>; 2],
     /// Why something that was read is not known.
@@ -108,7 +107,7 @@ impl<'a, M: JointRates, const N: usize, S: Real> Lazy<'a, M, N, S> {
     pub(super) fn new(
         space: &'a IndependentCoordinates<M, N, S>,
         (state, positions): (&'a M::JointState<S>, &'a Positions<N, S>),
-        directions: &'a [Option<Along>; LANES],
+        directions: &'a [Option<Whole>; LANES],
     ) -> Self {
         Self {
             space,
@@ -123,13 +122,9 @@ impl<'a, M: JointRates, const N: usize, S: Real> Lazy<'a, M, N, S> {
     }
 
     /// The state along the directions.
-    pub(super) fn there(&self) -> Result<&StateAlong<M, N, LANES, S>, Fault> {
-        let there = self.there.get_or_init(|| {
-            let there = self.space.standing_state(self.state, self.directions);
-            self.known(there)
-        });
-        let unknown = || self.fault.get().unwrap_or(crate::independent::not_finite());
-        there.as_ref().ok_or_else(unknown)
+    pub(super) fn there(&self) -> &StateAlong<M, N, LANES, S> {
+        let there = || self.space.whole_along(self.state, self.directions);
+        self.there.get_or_init(there)
     }
 
     pub(super) const fn space(&self) -> &'a IndependentCoordinates<M, N, S> {
@@ -161,7 +156,7 @@ impl<'a, M: JointRates, const N: usize, S: Real> Lazy<'a, M, N, S> {
     fn value(&self, value: ValueHandle<M>) -> Lifted<S> {
         let mut number = Forward::fixed(self.space.parameter(value.index()));
         for (lane, direction) in self.directions.iter().enumerate() {
-            if matches!(direction, Some(Along::Value(place)) if *place == value.index()) {
+            if matches!(direction, Some(Whole::Value(place)) if *place == value.index()) {
                 vary(Some(&mut number), lane);
             }
         }
@@ -176,22 +171,17 @@ impl<'a, M: JointRates, const N: usize, S: Real> Lazy<'a, M, N, S> {
     }
 
     fn bodies(&self) -> Bodies<M, S> {
-        let nothing = || {
-            let parameters = crate::forward::lifted(&self.space.parameters);
-            (M::prepare(&parameters), M::State::zeros())
-        };
-        let Ok(there) = self.there() else {
-            return nothing();
-        };
+        let there = self.there();
         let bodies = self.space.bodies_along(self.state, there);
         (M::prepare(&there.parameters), bodies)
     }
 
     /// Chosen numbers along the directions that are theirs.
-    fn chosen(&self, numbers: [S; N], column: impl Fn(Along) -> Option<usize>) -> [Lifted<S>; N] {
+    fn chosen(&self, numbers: [S; N], place: impl Fn(Whole) -> Option<usize>) -> [Lifted<S>; N] {
         let mut numbers = numbers.map(Forward::fixed);
         for (lane, direction) in self.directions.iter().enumerate() {
-            if let Some(column) = direction.and_then(&column) {
+            let place = direction.and_then(&place);
+            if let Some(column) = place.and_then(|place| self.space.column_of(place)) {
                 vary(numbers.get_mut(column), lane);
             }
         }
@@ -211,7 +201,7 @@ impl<M: JointRates, const N: usize, S: Real> Standing<M, S> for Lazy<'_, M, N, S
             let positions = positions.get_or_init(|| self.space.positions_of(self.state));
             let positions = self.known(*positions);
             self.chosen(positions.unwrap_or([S::zero(); N]), |along| match along {
-                Along::Position(column) => Some(column),
+                Whole::Position(place) => Some(place),
                 _ => None,
             })
         })
@@ -220,7 +210,7 @@ impl<M: JointRates, const N: usize, S: Real> Standing<M, S> for Lazy<'_, M, N, S
     fn rates(&self) -> &[Lifted<S>] {
         self.numbers[1].get_or_init(|| {
             self.chosen(self.space.rates_of(self.state), |along| match along {
-                Along::Rate(column) => Some(column),
+                Whole::Rate(place) => Some(place),
                 _ => None,
             })
         })

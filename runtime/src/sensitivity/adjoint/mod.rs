@@ -12,6 +12,7 @@
 
 mod back;
 mod instant;
+mod slopes;
 mod transposed;
 
 use core::fmt::{self, Debug};
@@ -26,7 +27,7 @@ use self::transposed::Transposed;
 use super::Differentiable;
 use crate::dynamics::{Dynamics, Posed, Problem};
 use crate::error::setting::positive;
-use crate::error::{AnalysisFault, Fault, LeavesOut, StartFault, Unheeding};
+use crate::error::{AnalysisFault, Fault, StartFault, Unheeding};
 use crate::formulation::Formulation;
 use crate::forward::Lifted;
 use crate::independent::IndependentCoordinates;
@@ -35,7 +36,7 @@ use crate::math::scalar::Real;
 use crate::mechanism::coordinates::Relative;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::JointRates;
-use crate::mechanism::kernels::{Mechanism as _, bodies_alone};
+use crate::mechanism::kernels::{Mechanism as _, Terms as _};
 use crate::nonsmooth::described::refuse_limits;
 
 /// The directions that one step takes, as many as [`Lifted`] numbers have.
@@ -187,34 +188,56 @@ where
         values: [ValueHandle<M>; P],
         cost: impl Fn(&Instant<'_, M, U, S>) -> Lifted<S>,
     ) -> Result<Gradient<M::JointState<S>, N, U, P, S>, Fault> {
-        bodies_alone::<M>(LeavesOut::Linearisation)?;
         if !self.space.passes_limits {
             refuse_limits::<M>(Unheeding::Derivatives)?;
         }
-        if let Some(switch) = M::SWITCHES.first() {
+        let mut jumps = M::SWITCHES.iter().filter(|switch| !switch.is_continuous);
+        if let Some(switch) = jumps.next() {
             return Err(Fault::Start(StartFault::SwitchLeftOut { law: switch.law }));
         }
         positive("step", self.integrator.step)?;
         if let Some(value) = twice(&held, &values) {
             return Err(Fault::Analysis(AnalysisFault::GivenTwice { value }));
         }
-        let mut transposed = Transposed::new(self.integrator, &held, &values, controls.len());
+        let mut transposed = self.transposed((&held, &values), controls.len())?;
         let stages = transposed.as_mut().map(Transposed::stages);
         let states = self.states(start, held, controls, stages)?;
         let mut along = Backwards::new(self, held, values, transposed)?;
         let mut by_controls = vec![[S::zero(); U]; controls.len()];
         for (number, state) in states.iter().enumerate().rev() {
-            let found = along.before(number, state, controls.get(number), &cost)?;
+            let ends = (state, states.get(number + 1));
+            let found = along.before(number, ends, controls.get(number), &cost)?;
             if let Some(place) = by_controls.get_mut(number) {
                 *place = found;
             }
         }
-        let found = along.found(by_controls, states);
+        let found = along.found(by_controls, states)?;
         if found.is_finite() {
             Ok(found)
         } else {
             Err(crate::independent::not_finite())
         }
+    }
+
+    /// How steps are gone through by the kernel, where it is there and has what is asked for.
+    fn transposed(
+        &self,
+        values: (&[ValueHandle<M>], &[ValueHandle<M>]),
+        steps: usize,
+    ) -> Result<Option<Transposed<M, S>>, Fault> {
+        // Without equations the formulation is nothing.
+        let has_rows = !M::JOINT_REPORT.closing.is_empty();
+        if M::ADJOINT_BY.is_none() || has_rows && (F::ITERATED || F::Terms::COMPLIANT) {
+            return Ok(None);
+        }
+        let dynamics = by_joints::<S, M, F>(self.space.parameters, self.formulation)?;
+        let coefficients = dynamics.own_equations().coefficients;
+        Ok(Transposed::new(
+            self.integrator,
+            coefficients,
+            values,
+            steps,
+        ))
     }
 
     /// The time (s) of an instant.
