@@ -7,7 +7,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::coordinates::{Coordinates, Evaluation};
 use crate::mechanism::limits::{JointLimits, Several};
 use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
-use crate::mechanism::report::Report;
+use crate::mechanism::report::{Comment, Report};
 use crate::mechanism::switch::Switch;
 use crate::state::vector::{Array, StateParts};
 
@@ -88,6 +88,9 @@ pub trait Mechanism: Sized + 'static {
     const VECTOR_ROWS: &'static [usize] = &[];
     /// The expressions in laws whose signs decide; none where no law switches.
     const SWITCHES: &'static [Switch] = &[];
+    /// The doc comments above the struct and its fields, as they were written; that of the struct
+    /// is the first, if there is one.
+    const COMMENTS: &'static [Comment] = &[];
     /// The bodies whose masses and moments are `as_given`, whether a body may have them or not.
     #[doc(hidden)]
     const AS_GIVEN: &'static [usize] = &[];

@@ -59,9 +59,9 @@ pub use point::Place;
 pub use point::{Located, Point};
 pub use readout::{AngleParts, DisplacementParts, ForceParts};
 pub use report::{
-    Block, BodyInfo, BodyKind, Carrier, ElementPlace, ExplicitTime, ForceInfo, JointInfo, Kernel,
-    Marker, MarkerKind, Operations, PointInfo, Rank, RedundantRow, Shape, ShapeKind, StateInfo,
-    ValueInfo,
+    Block, BodyInfo, BodyKind, Carrier, Comment, ElementPlace, ExplicitTime, ForceInfo, JointInfo,
+    Kernel, Marker, MarkerKind, Operations, PointInfo, Rank, RedundantRow, Shape, ShapeKind,
+    StateInfo, ValueInfo,
 };
 pub use setpoint::Setpoint;
 pub use switch::Switch;

@@ -311,6 +311,16 @@ pub struct ValueInfo {
     pub further: usize,
 }
 
+/// A doc comment in the description of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Comment {
+    /// The field that it stands above, without the numbers of elements; empty for the struct.
+    pub field: &'static str,
+    /// Its lines.
+    pub text: &'static str,
+}
+
 /// A joint or a force by its place in a [`Report`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

@@ -74,6 +74,8 @@ pub struct Recorder<W> {
     mechanism: Option<TypeId>,
     /// The angles of its joints, in their order, after the last line.
     angles: Vec<UnwrappedAngle<f64>>,
+    /// Whether the names of the columns are written.
+    is_titled: bool,
     /// Whether a line was not written to its end.
     torn: bool,
 }
@@ -98,6 +100,7 @@ impl<W: Write> Recorder<W> {
             extra: Extra::default(),
             mechanism: None,
             angles: Vec::new(),
+            is_titled: false,
             torn: false,
         }
     }
@@ -134,19 +137,23 @@ impl<W: Write> Recorder<W> {
         self
     }
 
-    /// Writes a sample as one line, the first one under the names of the columns.
+    /// The names of the columns with their units, as they stand in the first line.
+    #[must_use]
+    pub fn columns<M: Mechanism>(&self) -> Vec<String> {
+        columns::<M>(&self.extra)
+    }
+
+    /// The numbers of a sample in the order of [`Recorder::columns`], for those who put them
+    /// elsewhere; `None` where a field would be empty. Nothing is written. Angles go on over turns
+    /// from sample to sample.
     ///
     /// # Errors
-    /// See [`RecordError`].
-    pub fn record<S: Real, M: Mechanism>(
+    /// [`RecordError::OtherMechanism`], [`RecordError::NotFinite`] and the fault of an evaluation.
+    pub fn values<S: Real, M: Mechanism>(
         &mut self,
         sample: &Sample<'_, S, M>,
-    ) -> Result<(), RecordError> {
-        if self.torn {
-            return Err(RecordError::Torn);
-        }
+    ) -> Result<Vec<Option<f64>>, RecordError> {
         let mechanism = TypeId::of::<M>();
-        let first = self.mechanism.is_none();
         if self.mechanism.is_some_and(|known| known != mechanism) {
             return Err(RecordError::OtherMechanism);
         }
@@ -158,13 +165,29 @@ impl<W: Write> Recorder<W> {
             let column = columns::<M>(&self.extra).swap_remove(place);
             return Err(RecordError::NotFinite { column });
         }
-        if first {
-            self.line(&columns::<M>(&self.extra))?;
-            self.mechanism = Some(mechanism);
-        }
+        self.mechanism = Some(mechanism);
         self.angles = angles;
+        Ok(row.values)
+    }
+
+    /// Writes a sample as one line, the first one under the names of the columns.
+    ///
+    /// # Errors
+    /// See [`RecordError`].
+    pub fn record<S: Real, M: Mechanism>(
+        &mut self,
+        sample: &Sample<'_, S, M>,
+    ) -> Result<(), RecordError> {
+        if self.torn {
+            return Err(RecordError::Torn);
+        }
+        let values = self.values(sample)?;
+        if !self.is_titled {
+            self.line(&columns::<M>(&self.extra))?;
+            self.is_titled = true;
+        }
         let digits = |value: &Option<f64>| value.map_or_else(String::new, |x| format!("{x:?}"));
-        self.line(&row.values.iter().map(digits).collect::<Vec<_>>())
+        self.line(&values.iter().map(digits).collect::<Vec<_>>())
     }
 
     /// The writer.

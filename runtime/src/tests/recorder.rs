@@ -80,6 +80,21 @@ fn what_was_recorded_reads_back_to_the_last_digit() {
     assert!(expected[10][6].1 > 6.9);
 }
 
+#[test]
+fn values_are_those_of_the_line() {
+    let mut recorder = Recorder::new(Vec::new()).with_reactions();
+    let mut beside = Recorder::new(Vec::new()).with_reactions();
+    let mut rows = Vec::new();
+    follow(7.0, |sample| {
+        recorder.record(sample).unwrap();
+        let values = beside.values(sample).unwrap();
+        rows.push(values.into_iter().map(Option::unwrap).collect::<Vec<f64>>());
+    });
+    let columns = beside.columns::<Crank>();
+    assert_eq!(parse(&recorder.into_inner()), (columns, rows));
+    assert!(beside.into_inner().is_empty());
+}
+
 /// Takes a number of bytes and no more.
 struct Full {
     taken: Vec<u8>,

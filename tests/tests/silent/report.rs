@@ -11,6 +11,35 @@ use holonom::{
 };
 use holonom::{View, mechanism::JointReport};
 
+#[test]
+fn comments_are_those_above_the_struct_and_its_fields() {
+    let texts: Vec<_> = Pushed::COMMENTS
+        .iter()
+        .map(|of| (of.field, of.text))
+        .collect();
+    assert_eq!(
+        texts,
+        [("", "A cart.\n\nIt is pushed."), ("push", "The force (N).")]
+    );
+}
+
+/// A cart.
+///
+/// It is pushed.
+#[derive(Mechanism)]
+#[mechanism(coordinates = "joints")]
+struct Pushed {
+    /// The force (N).
+    #[input]
+    push: f64,
+    #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0])]
+    cart: Body,
+    #[joint(between = [ground, cart], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    rail: Prismatic,
+    #[force(between = [ground, cart], point = [0.0, 0.0, 0.0], force = [push, 0.0, 0.0])]
+    motor: PointForce,
+}
+
 /// Four links about parallel axes: angles and rates are sums along the run.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]

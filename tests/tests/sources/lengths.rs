@@ -7,13 +7,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The sources that are held to it.
-const FOLDERS: [&str; 9] = [
+const FOLDERS: [&str; 10] = [
     "macros/src",
     "macros/engine/src",
     "runtime/src",
     "film/src",
     "export/src",
     "fmu/src",
+    "python/src",
     "urdf/src",
     "urdf/macros/src",
     "models/src",

@@ -252,8 +252,7 @@ fn described<'a>(
     let states: Vec<_> = states.into_iter().collect::<Option<_>>()?;
     let mut elements: Vec<_> = joints.iter_mut().chain(&mut forces).collect();
     states::tell(&states, &mut elements);
-    let points = points.into_iter().map(|(_, point)| point);
-    let points: Vec<_> = points.collect::<Option<_>>()?;
+    let points: Option<Vec<_>> = points.into_iter().map(|(_, point)| point).collect();
     let switches = switches::switches((joints.len(), &forces), &definitions, &states, &mut numbers);
     let values = std::mem::take(&mut numbers.values);
     let symbols = std::mem::take(&mut numbers.symbols);
@@ -268,7 +267,7 @@ fn described<'a>(
         joints,
         forces,
         states,
-        points,
+        points: points?,
         parts,
         values,
         definitions,
@@ -281,6 +280,7 @@ fn described<'a>(
         derived_by: kernels.derived_by,
         constants,
         lengths: syntax.lengths.clone(),
+        comments: syntax.comments.clone(),
     };
     Some(Checked { model, wish })
 }

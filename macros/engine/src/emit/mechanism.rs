@@ -22,6 +22,17 @@ use crate::plan::kernels::Kernels;
 use crate::symbolic::equations::Kernel;
 use crate::syntax::words::local;
 
+/// The comments of the struct and of its fields, where there are any.
+fn comments(model: &Model, facade: &TokenStream) -> TokenStream {
+    if model.comments.is_empty() {
+        return TokenStream::new();
+    }
+    let comments = model.comments.iter();
+    let comments = comments
+        .map(|(field, text)| quote!(#facade::mechanism::Comment { field: #field, text: #text }));
+    quote!(const COMMENTS: &'static [#facade::mechanism::Comment] = &[#(#comments),*];)
+}
+
 /// Writes everything that is generated for a mechanism.
 #[must_use]
 pub fn emit(model: &Model, facade: &TokenStream) -> TokenStream {
@@ -73,7 +84,7 @@ impl Writer<'_> {
             report(model, kernels, facade),
             documentation(model, kernels),
         );
-        let watched = watched(model);
+        let (watched, comments) = (watched(model), comments(model, facade));
         let assertions = parameters::assertions(model, facade);
         let splines = splines::functions(model, facade);
         let sides = switches::functions(model, facade);
@@ -118,6 +129,7 @@ impl Writer<'_> {
                     const HANDLES: __Handles = #handles;
                     const REPORT: #facade::Report = #report;
                     const VECTOR_ROWS: &'static [usize] = &[#(#vector_rows),*];
+                    #comments
 
                     #limits
                     #parameters

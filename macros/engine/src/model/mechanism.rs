@@ -266,6 +266,8 @@ pub struct Model {
     pub constants: Vec<TokenStream>,
     /// Constants by their names that are said to have these values.
     pub lengths: Vec<(Ident, usize)>,
+    /// The doc comments above fields, by their names, and that above the struct under none.
+    pub comments: Vec<(String, String)>,
 }
 
 impl Model {

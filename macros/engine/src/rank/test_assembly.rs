@@ -184,6 +184,7 @@ fn model(joint: &ElementDef, choice: Choice) -> Model {
         parts: Vec::new(),
         constants: Vec::new(),
         lengths: Vec::new(),
+        comments: Vec::new(),
         values: Vec::new(),
         definitions: vec![joint.clone()],
         symbols: Vec::new(),

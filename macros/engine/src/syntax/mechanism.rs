@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
-use syn::{Data, DeriveInput, Fields, Type};
+use syn::{Data, DeriveInput, Expr, ExprLit, Fields, Lit, Type};
 
 use super::array::Lengths;
 use super::attributes::{named_fields, parse_field, role};
@@ -27,6 +27,8 @@ pub struct MechanismSyntax {
     pub parts: Vec<PartSyntax>,
     /// The lengths of arrays that are given by the names of constants.
     pub lengths: Lengths,
+    /// The doc comments above fields, by their names, and that above the struct under none.
+    pub comments: Vec<(String, String)>,
     /// Arrays of a length that was refused: only the first element is there, and nobody knows which
     /// others are meant.
     pub unmeasured: Vec<Ident>,
@@ -44,6 +46,7 @@ pub fn parse(input: &DeriveInput, assemblies: &Assemblies, faults: &mut Faults) 
         fields: Vec::new(),
         parts: Vec::new(),
         lengths: Lengths::new(),
+        comments: comments(input),
         unmeasured: Vec::new(),
         is_plain: true,
     };
@@ -95,6 +98,33 @@ pub fn parse(input: &DeriveInput, assemblies: &Assemblies, faults: &mut Faults) 
     }
     (result.fields, result.parts) = (expanded.fields, expanded.parts);
     result
+}
+
+/// The doc comments of a struct and of its fields, as they were written.
+fn comments(input: &DeriveInput) -> Vec<(String, String)> {
+    let of_struct = std::iter::once((String::new(), &input.attrs));
+    let fields = named_fields(input);
+    let fields = fields.filter_map(|field| Some((field.ident.as_ref()?.to_string(), &field.attrs)));
+    let all = of_struct.chain(fields);
+    let all = all.map(|(field, attributes)| (field, comment(attributes)));
+    all.filter(|(_, text)| !text.is_empty()).collect()
+}
+
+/// The text of a doc comment. What is included from a file is no part of it.
+fn comment(attributes: &[syn::Attribute]) -> String {
+    let lines = attributes.iter().filter_map(|attribute| {
+        let value = attribute.meta.require_name_value().ok()?;
+        match &value.value {
+            Expr::Lit(ExprLit {
+                lit: Lit::Str(text),
+                ..
+            }) if value.path.is_ident("doc") => Some(text.value()),
+            _ => None,
+        }
+    });
+    let lines = lines.map(|line| line.strip_prefix(' ').unwrap_or(&line).to_owned());
+    let lines: Vec<String> = lines.collect();
+    lines.join("\n").trim().to_owned()
 }
 
 /// What is wrong with the shape of an item that is not a struct with named fields.
