@@ -141,6 +141,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             returned: None,
             is_public: true,
             is_checked: false,
+            guard: None,
         });
     }
 
@@ -188,6 +189,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             returned: None,
             is_public: true,
             is_checked: false,
+            guard: None,
         });
     }
 
@@ -294,6 +296,7 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
             returned: None,
             is_public: true,
             is_checked: false,
+            guard: None,
         });
         self
     }

@@ -49,7 +49,11 @@ typedef enum {n}_status {{
     /* Equations depend on each other here: their solution has no digit left. */
     {u}_SINGULAR = 2,
     /* A number that is not finite. */
-    {u}_NOT_FINITE = 3
+    {u}_NOT_FINITE = 3,
+    /* A step would pass a limit of a joint: take a shorter one up to it. */
+    {u}_LIMIT = 4,
+    /* A projection that has not converged. */
+    {u}_NOT_CONVERGED = 5
 }} {n}_status;
 
 ",

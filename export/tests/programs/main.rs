@@ -4,4 +4,5 @@ mod bits;
 mod compiled;
 mod functions;
 mod interface;
+mod limits;
 mod rollout;
