@@ -14,8 +14,8 @@ use holonom::{JointCoordinates, Sample};
 use holonom_fmu::Fmu;
 use holonom_models::{CartPole, FourBar, HeavyTop, Ur5};
 
-/// Two links on parallel axes, with a damper and a motor at the first one, and a current that a
-/// voltage drives.
+/// Two links on parallel axes with stops between them, with a damper and a motor at the first one,
+/// and a current that a voltage drives.
 #[derive(Clone, Copy, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 struct Arm {
@@ -40,7 +40,10 @@ struct Arm {
     lower: Body,
     #[joint(between = [ground, upper], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
     shoulder: Revolute,
-    #[joint(between = [upper, lower], point = [0.0, 1.0, 0.0], axis = [-1.0, 0.0, 0.0])]
+    #[joint(
+        between = [upper, lower], point = [0.0, 1.0, 0.0], axis = [-1.0, 0.0, 0.0],
+        limits = [-0.4, 1.5], restitution = 0.7
+    )]
     elbow: Revolute,
     #[force(
         between = [ground, upper],
