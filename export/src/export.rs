@@ -67,6 +67,7 @@ const OWN: &[&str] = &[
     "NOT_CONVERGED",
     "H",
     "FUNCTION",
+    "RESTRICT",
 ];
 
 /// A mechanism that is written as a program: its functions, one after the other, and then in C.
@@ -189,7 +190,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self.layout();
         self.preparation(&stabilisation);
         self.kernel::<F::Terms>();
-        self.of_joints();
+        self.of_joints(&parameters);
         self.of_limits();
         Ok(())
     }

@@ -83,6 +83,11 @@ where
         .simulation(formulation, DormandPrince::new(tight))
         .joint_coordinates()
         .run(0.0..=end, every(end / 100.0), |sample| {
+            // A run is shown before and after impacts as well.
+            let periods = sample.time() / end * 100.0;
+            if (periods - periods.round()).abs() > 1e-9 {
+                return;
+            }
             let numbers = columns.iter().map(|(_, read)| read(sample));
             let numbers: Vec<String> = numbers.map(|number| format!("{number:?}")).collect();
             lines += &format!("{:?},{}\n", sample.time(), numbers.join(","));
