@@ -5,7 +5,7 @@ use crate::compiled::{Program, random_state};
 use holonom::mechanism::{Absolute, HasInverse as _, HasMassMatrix as _, Relative};
 use holonom::prelude::*;
 use holonom::state::Vector;
-use holonom_export::{Double, Export, ExportError, ExportExt as _, Single, Source};
+use holonom_export::{Double, Export, ExportExt as _, Single, Source};
 use holonom_models::{FourBar, Ur5};
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
@@ -360,65 +360,6 @@ fn derivatives_are_those_of_differences() {
         .expect("described");
     let stepper = stepper.absolute_coordinates();
     differences(&source, &stepper.initial_state().expect("described"), "");
-}
-
-#[test]
-fn what_cannot_be_exported_is_named() {
-    let bars = FourBar::default();
-    let refused = bars.export(Penalty::default()).c();
-    assert!(
-        matches!(refused, Err(ExportError::Formulation)),
-        "{refused:?}"
-    );
-    let compared = bars.export(StandardLagrange).reading("side", "", |view| {
-        let height = view.position(FourBar::HANDLES.coupler).y;
-        if height == holonom::Scalar::zero() {
-            height
-        } else {
-            -height
-        }
-    });
-    let refused = compared.c().expect_err("it compares").to_string();
-    assert!(refused.contains("`side` compares numbers"), "{refused}");
-    let before = bars
-        .export(StandardLagrange)
-        .reading("jacobian", "", |view| view.time());
-    let refused = before
-        .derivatives()
-        .c()
-        .expect_err("a struct has the name")
-        .to_string();
-    assert_eq!(refused, "the name `jacobian` is given twice");
-    let bars_by_joints = Export::<_, Double, Relative>::new(&bars, StandardLagrange);
-    let refused = bars_by_joints
-        .joint_derivatives()
-        .c()
-        .expect_err("not asked for");
-    assert!(
-        refused
-            .to_string()
-            .contains("write `kernels = [derivatives]`"),
-        "{refused}"
-    );
-    let twice = bars
-        .export(StandardLagrange)
-        .reading("state", "", |view| view.time());
-    let refused = twice.c().expect_err("the name is taken").to_string();
-    assert_eq!(refused, "the name `state` is given twice");
-    assert!(matches!(
-        Stuck::default().export(StandardLagrange).c(),
-        Err(ExportError::Still)
-    ));
-}
-
-/// Nothing moves by its joints.
-#[derive(Mechanism)]
-#[mechanism(coordinates = "joints")]
-struct Stuck {
-    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.0])]
-    block: Body,
-    #[joint(between = [ground, block], point = [0.0, 0.0, 0.0])]
-    weld: Fixed,
 }
 
 #[test]

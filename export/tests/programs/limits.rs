@@ -6,7 +6,7 @@ use holonom::mechanism::{Coordinates, TracedCoordinates};
 use holonom::prelude::*;
 use holonom::state::Vector;
 use holonom::traced::{impact, projected};
-use holonom_export::{Double, Export, ExportError, ExportExt as _, Source};
+use holonom_export::{Double, Export, ExportExt as _, Source};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
@@ -14,9 +14,9 @@ use rand_chacha::ChaCha8Rng;
 /// a brake that acts in one direction.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, -9.81, 0.0], redundant = "drop", coordinates = "both")]
-struct Bars {
+pub(crate) struct Bars {
     #[param(like = 0.9)]
-    stop: f64,
+    pub(crate) stop: f64,
     #[input]
     torque: f64,
     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.5, 0.0])]
@@ -269,64 +269,45 @@ fn gaps_impacts_and_projections_of_bodies() {
     compare::<Absolute>("stopped_bodies", 0.1);
 }
 
-/// A loop that steps up to a limit, bounces and goes on, as a user writes it.
+/// The loop of the README, which steps up to a limit, bounces and goes on.
 #[test]
 fn a_loop_in_c_bounces_as_a_stepper() {
-    let source = export::<Relative>("bouncing", STOP);
-    let main = "\
-#include \"bouncing.h\"
+    let source = export::<Relative>("bars", STOP);
+    let readme = include_str!("../../README.md");
+    let step = readme.split("```c\n").nth(2);
+    let step = step.and_then(|rest| rest.split("```").next());
+    let main = format!(
+        "\
+#include \"bars.h\"
 #include <stdio.h>
 
-static bouncing_parameters parameters;
-static bouncing_inputs inputs;
-static bouncing_constants constants;
-static bouncing_state state;
-static bouncing_joints joints;
-
-/* A step of dt, in parts between limits. */
-static int step(double dt)
-{
-    while (dt > 0.0) {
-        double part = dt;
-        int status = bouncing_step(&constants, &state, part);
-        if (status == BOUNCING_LIMIT) {
-            double most;
-            for (most = dt; most > 1e-14; most *= 0.5) {
-                part = 0.5 * most;
-                if (bouncing_step(&constants, &state, part) == BOUNCING_OK) {
-                    dt -= part;
-                }
-            }
-            status = bouncing_impact(&constants, &state, 1e-9, 0.0);
-            part = 0.0;
-        }
-        if (status != BOUNCING_OK) {
-            return status;
-        }
-        dt -= part;
-    }
-    return BOUNCING_OK;
-}
-
+{}
 int main(void)
-{
+{{
     int k;
-    bouncing_default_parameters(&parameters);
-    bouncing_default_inputs(&inputs);
-    bouncing_prepare(&parameters, &inputs, &constants);
-    bouncing_init(&state);
-    for (k = 0; k < 200; k++) {
-        if (step(5e-3) != BOUNCING_OK) {
+    bars_parameters parameters;
+    bars_inputs inputs;
+    bars_constants constants;
+    bars_state state;
+    bars_joints joints;
+    bars_default_parameters(&parameters);
+    bars_default_inputs(&inputs);
+    bars_prepare(&parameters, &inputs, &constants);
+    bars_init(&state);
+    for (k = 0; k < 200; k++) {{
+        if (step(&constants, &state, 5e-3) != BARS_OK) {{
             return 1;
-        }
-        bouncing_get_joints(&state, &joints);
+        }}
+        bars_get_joints(&state, &joints);
         fwrite(&joints.left_foot, sizeof joints.left_foot, 1, stdout);
         fwrite(&joints.left_foot_rate, sizeof joints.left_foot_rate, 1, stdout);
-    }
+    }}
     return 0;
-}
-";
-    let found = Program::compiled(&source, main).run::<f64>(&[]);
+}}
+",
+        step.expect("a loop in C")
+    );
+    let found = Program::compiled(&source, &main).run::<f64>(&[]);
     let mut stepper = bars(STOP)
         .stepper(StandardLagrange, Rk4)
         .expect("described");
@@ -348,13 +329,8 @@ int main(void)
 }
 
 #[test]
-fn limits_a_turn_apart_are_refused_by_name() {
+fn limits_a_turn_apart_are_passed_where_that_is_said() {
     let wide = Bars::new(5.0).expect("finite");
-    let refused = wide.export(StandardLagrange).step(Rk4).c();
-    assert!(matches!(
-        refused,
-        Err(ExportError::Limits { joint: "left_foot" })
-    ));
     let passed = wide.export(StandardLagrange).without_limits().step(Rk4);
     let source = passed.c().expect("exported").source;
     assert!(!source.contains("_LIMIT;"));

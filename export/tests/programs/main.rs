@@ -5,4 +5,5 @@ mod compiled;
 mod functions;
 mod interface;
 mod limits;
+mod refused;
 mod rollout;
