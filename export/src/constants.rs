@@ -5,6 +5,7 @@ use holonom::state::Array as _;
 use holonom::{Mechanism, Scalar as _};
 
 use crate::export::{CONSTANTS, Export, INPUTS, PARAMETERS, argument, outputs, structure, written};
+use crate::limits::constants_of;
 use crate::number::{Precision, Traced};
 use crate::program::{Function, Member, Output};
 use crate::system::ConstantsOf;
@@ -54,7 +55,10 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             let parameters = self.parameters();
             let (own, coefficients) = C::prepare(&parameters, &stabilisation);
             let absolute = M::prepare(&parameters);
-            [own.as_slice(), coefficients.as_slice(), absolute.as_slice()]
+            let limits = constants_of::<P, M>(&parameters);
+            let slices = [own.as_slice(), coefficients.as_slice(), absolute.as_slice()];
+            [&slices[..], &[&limits[..]]]
+                .concat()
                 .concat()
                 .into_iter()
                 .map(Traced::place)
@@ -86,6 +90,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             returned: None,
             is_public: true,
             is_checked: false,
+            guard: None,
         });
         if !self.values[1].is_empty() {
             self.taking_inputs();
@@ -129,20 +134,14 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             returned: None,
             is_public: true,
             is_checked: false,
+            guard: None,
         });
     }
 
     /// Constants, coefficients and the constants in absolute coordinates: known, or arguments from
     /// a place on.
     pub(crate) fn constants_from(&self, first: usize) -> AllConstants<P, M, C> {
-        let mut numbers = self
-            .constants
-            .iter()
-            .enumerate()
-            .map(|(k, constant)| match constant {
-                Constant::Known(number) => Traced::constant(*number),
-                Constant::Given => argument(first + k),
-            });
+        let mut numbers = (0..self.constants.len()).map(|k| self.constant(first, k));
         let mut own = ConstantsOf::<P, M, C>::zeros();
         let mut coefficients = <C as Coordinates<M>>::Coefficients::<Traced<P>>::zeros();
         let mut absolute = M::Constants::<Traced<P>>::zeros();
@@ -157,5 +156,13 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             }
         }
         (own, coefficients, absolute)
+    }
+
+    /// The constant of a place: known, or an argument behind so many others.
+    pub(crate) fn constant(&self, first: usize, place: usize) -> Traced<P> {
+        match self.constants.get(place) {
+            Some(Constant::Known(number)) => Traced::constant(*number),
+            _ => argument(first + place),
+        }
     }
 }

@@ -17,8 +17,8 @@ pub enum ExportError {
     /// [`StandardLagrange`]: holonom::StandardLagrange
     /// [`Baumgarte`]: holonom::Baumgarte
     Formulation,
-    /// A limit of the description: a step that heeds it is taken in parts whose number depends on
-    /// the motion. [`Export::without_limits`](crate::Export::without_limits) passes them.
+    /// Limits of an angle that are a turn or more apart: a state in C counts no turns, so a step
+    /// cannot heed them. [`Export::without_limits`](crate::Export::without_limits) passes them.
     Limits {
         /// The field of the joint.
         joint: &'static str,
@@ -41,6 +41,9 @@ pub enum ExportError {
         /// The name.
         name: String,
     },
+    /// A projection in coordinates one of whose equations is none of the bodies, so that its
+    /// violation is not known.
+    Projection,
     /// A rollout of a program without a step: see [`Export::step`](crate::Export::step).
     Step,
     /// A file that cannot be written.
@@ -56,7 +59,7 @@ impl fmt::Display for ExportError {
             ),
             Self::Limits { joint } => write!(
                 f,
-                "joint `{joint}` has limits: a step in C does not heed them; say `.without_limits()` to pass them"
+                "the limits of joint `{joint}` are a turn or more apart, and states in C count no turns: say `.without_limits()` to pass them"
             ),
             Self::Kernel { kernel } => write!(
                 f,
@@ -68,6 +71,9 @@ impl fmt::Display for ExportError {
             ),
             Self::Still => f.write_str("nothing of the mechanism moves: there are no rates to write"),
             Self::Name { name } => write!(f, "the name `{name}` is given twice"),
+            Self::Projection => f.write_str(
+                "an equation of these coordinates is none of the bodies: `project` is there in absolute coordinates",
+            ),
             Self::Step => f.write_str("a rollout takes steps: say `.step(Rk4)` before `.cuda()`"),
             Self::File(error) => error.fmt(f),
         }

@@ -11,6 +11,7 @@ use holonom::{Mechanism, Real, Rk4, StandardLagrange, Stepper, View};
 use crate::constants::Constant;
 use crate::error::ExportError;
 use crate::layout::{self, Element};
+use crate::limits::{Limited, limits_of};
 use crate::names::identifier;
 use crate::number::{Double, Precision, Traced};
 use crate::program::{Argument, Function, Kind, Member, Output, Program, Struct};
@@ -62,8 +63,11 @@ const OWN: &[&str] = &[
     "BAD_STEP",
     "SINGULAR",
     "NOT_FINITE",
+    "LIMIT",
+    "NOT_CONVERGED",
     "H",
     "FUNCTION",
+    "RESTRICT",
 ];
 
 /// A mechanism that is written as a program: its functions, one after the other, and then in C.
@@ -110,9 +114,9 @@ pub struct Export<M: Mechanism, P = Double, C = <M as Mechanism>::Coordinates> {
     pub(crate) least_pivot: f64,
     pub(crate) has_pivot: bool,
     pub(crate) constants: Vec<Constant>,
-    /// The first joint with limits.
-    limited: Option<&'static str>,
-    is_passing_limits: bool,
+    /// The joints with limits.
+    pub(crate) limited: Vec<Limited>,
+    pub(crate) is_passing_limits: bool,
     /// Whether what one side of a choice alone needs stands behind a branch.
     pub(crate) has_branches: bool,
     pub(crate) fault: Option<ExportError>,
@@ -152,7 +156,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 },
             has_pivot: C::HAS_PIVOTS,
             constants: Vec::new(),
-            limited: None,
+            limited: Vec::new(),
             is_passing_limits: false,
             has_branches: true,
             fault: None,
@@ -175,9 +179,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         let stabilisation = formulation.stabilisation()?;
         let parameters = mechanism.parameters::<f64>()?;
         self.defaults = parameters.as_slice().to_vec();
-        let limits = M::limits_of(&parameters, |limits| limits.joint);
-        let limited = limits.as_ref().first();
-        self.limited = limited.and_then(|&joint| Some(M::REPORT.joints.get(joint)?.name));
+        self.limited = limits_of::<M>(&parameters);
         if P::IS_SINGLE {
             let stepper = Stepper::<Problem<_, _, f32>, _>::new(mechanism, StandardLagrange, Rk4)?;
             self.start_from(&stepper.coordinates::<C>().initial_state()?);
@@ -188,7 +190,8 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self.layout();
         self.preparation(&stabilisation);
         self.kernel::<F::Terms>();
-        self.of_joints();
+        self.of_joints(&parameters);
+        self.of_limits();
         Ok(())
     }
 
@@ -287,6 +290,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             returned: self.has_pivot.then_some(pivot),
             is_public: false,
             is_checked: false,
+            guard: None,
         });
     }
 
@@ -318,8 +322,8 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self
     }
 
-    /// Exports the mechanism although it has limits, which a step in C passes as if there were
-    /// none.
+    /// A step passes the limits of joints as if there were none. Else it returns `LIMIT`, and
+    /// leaves the state as it was.
     #[must_use]
     pub fn without_limits(mut self) -> Self {
         self.is_passing_limits = true;
@@ -362,6 +366,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             returned: Some(place),
             is_public: true,
             is_checked: false,
+            guard: None,
         });
         self
     }
@@ -420,11 +425,16 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         if let Some(name) = self.taken() {
             return Err(ExportError::Name { name });
         }
-        let steps = self.program.function("step").is_some();
-        match self.limited {
-            Some(joint) if steps && !self.is_passing_limits => Err(ExportError::Limits { joint }),
-            _ => Ok(self),
+        let step = self.program.function("step");
+        let step = step.and_then(|place| self.program.functions.get_mut(place));
+        let Some(step) = step else { return Ok(self) };
+        if self.is_passing_limits {
+            step.guard = None;
+        } else if let Some(wide) = self.limited.iter().find(|of| of.is_unknown()) {
+            let joint = wide.name();
+            return Err(ExportError::Limits { joint });
         }
+        Ok(self)
     }
 }
 

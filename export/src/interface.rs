@@ -25,6 +25,11 @@ pub struct Interface {
     pub states: Vec<Coordinate>,
     /// The functions that read a state.
     pub readings: Vec<Quantity>,
+    /// The members of its struct of gaps, three for each joint with limits: how far it is above
+    /// the lower one and below the upper one, and its rate. Empty where limits are passed.
+    pub gaps: Vec<Quantity>,
+    /// The members of its struct of switches.
+    pub switches: Vec<Quantity>,
     /// Whether the program has a struct of constants.
     pub has_constants: bool,
 }
@@ -86,12 +91,25 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     pub fn interface(&self) -> Interface {
         let of = |values: &[Value]| values.iter().map(|value| self.value(value)).collect();
         let [parameters, inputs] = &self.values;
+        let members = |name: &str| {
+            let mut structs = self.program.structs.iter();
+            let found = structs.find(|of| of.name == name);
+            let members = found.map_or(&[][..], |of| &of.members);
+            let members = members.iter();
+            members.map(|of| Quantity::of(of, Vec::new())).collect()
+        };
         Interface {
             name: self.name.clone(),
             parameters: of(parameters),
             inputs: of(inputs),
             states: self.coordinates(),
             readings: self.readings().map(reading).collect(),
+            gaps: if self.is_passing_limits {
+                Vec::new()
+            } else {
+                members("gaps")
+            },
+            switches: members("switches"),
             has_constants: used_constants(&self.program).iter().any(Option::is_some),
         }
     }

@@ -1,9 +1,10 @@
 //! Functions of mechanisms in joint coordinates: what joints have, and kernels in their rates.
 
 use holonom::mechanism::{
-    Freedom, HasInverse, HasMassMatrix, JointMotion, JointReport, Relative, TracedCoordinates,
+    Freedom, HasInverse, HasMassMatrix, JointMotion, JointReport, Relative, Stabilisation,
+    TracedCoordinates,
 };
-use holonom::state::Array;
+use holonom::state::{Array, MovingState as _, Vector as _};
 use holonom::{JointCoordinates, Mechanism, Scalar};
 
 use crate::error::ExportError;
@@ -19,6 +20,16 @@ struct Place {
     /// Of the cosine, or of the displacement.
     coordinate: usize,
     rate: usize,
+}
+
+/// An auxiliary variable: an angle over any number of turns, which is a sum of those of joints.
+struct Counted {
+    /// Its place in a state.
+    place: usize,
+    /// How much of each motion it has, as a state counts that.
+    parts: Vec<f64>,
+    /// What it is in the described configuration (rad).
+    start: f64,
 }
 
 /// Positions and rates of the joints, of those motions that have one number.
@@ -57,8 +68,9 @@ fn signed<S: Scalar>(motion: &JointMotion, x: S) -> S {
 }
 
 impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
-    /// The functions that read what joints have, and put it into a state.
-    pub(crate) fn of_joints(&mut self) {
+    /// The functions that read what joints have, and put it into a state. They are given the
+    /// parameters of the mechanism.
+    pub(crate) fn of_joints(&mut self, parameters: &M::Parameters<f64>) {
         let Some(report) = C::JOINTS else { return };
         let members = members(report);
         if members.is_empty() {
@@ -72,10 +84,69 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             members,
         });
         self.reading_joints(report, joints);
-        let is_settable = |motion: &JointMotion| !matches!(motion.freedom, Freedom::Screw { .. });
-        if report.counters.is_empty() && report.motions.iter().all(is_settable) {
-            self.setting_joints(report, joints);
+        if let Some(counted) = self.counted(report, parameters) {
+            self.setting_joints(report, joints, &counted);
         }
+    }
+
+    /// The auxiliary variables that count angles as sums of those of joints; `None` where one is no
+    /// such sum.
+    fn counted(
+        &self,
+        report: &JointReport,
+        parameters: &M::Parameters<f64>,
+    ) -> Option<Vec<Counted>> {
+        let screws = report
+            .motions
+            .iter()
+            .filter_map(|motion| match motion.freedom {
+                Freedom::Screw { counter, .. } => Some(counter),
+                _ => None,
+            });
+        let screws: Vec<usize> = screws.collect();
+        let counters = report.counters.iter();
+        let others = counters.filter(|counter| !screws.contains(&counter.coordinate));
+        let others: Vec<usize> = others.map(|counter| counter.coordinate).collect();
+        if others.is_empty() {
+            return Some(Vec::new());
+        }
+        if report.rewraps {
+            return None;
+        }
+        let rigid = Stabilisation {
+            rate: 0.0,
+            position: 0.0,
+            compliance: 0.0,
+        };
+        let (own, _) = C::prepare(parameters, &rigid);
+        let mut state = C::State::<f64>::zeros();
+        for (place, &number) in self.start.iter().enumerate() {
+            state.set_element(place, number);
+        }
+        let all = others.into_iter().map(|counter| {
+            let place = 2 * self.pairs() + counter;
+            let parts = report.motions.iter().map(|motion| {
+                let mut velocities = C::Velocities::<f64>::zeros();
+                if let Some(velocity) = velocities.as_mut_slice().get_mut(motion.velocity) {
+                    *velocity = 1.0;
+                }
+                C::way(&own, 0.0, &state, &velocities).element(place)
+            });
+            Counted {
+                place,
+                parts: parts.collect(),
+                start: self.start[place],
+            }
+        });
+        let all: Vec<Counted> = all.collect();
+        // The angle of a ball is no sum.
+        let is_sum = |of: &Counted| {
+            let parts = of.parts.iter().zip(report.motions);
+            parts
+                .clone()
+                .all(|(part, motion)| *part == 0.0 || is_single(motion))
+        };
+        all.iter().all(is_sum).then_some(all)
     }
 
     fn place(&self, report: &JointReport, motion: &JointMotion) -> Place {
@@ -141,10 +212,11 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             returned: None,
             is_public: true,
             is_checked: false,
+            guard: None,
         });
     }
 
-    fn setting_joints(&mut self, report: &JointReport, joints: usize) {
+    fn setting_joints(&mut self, report: &JointReport, joints: usize, counted: &[Counted]) {
         let (tape, written_numbers) = traced(P::IS_SINGLE, || {
             // Of each motion: the angle since the reference configuration, and the rate, both
             // against what carries its run.
@@ -162,14 +234,31 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 }
                 known[number] = Some([position, rate]);
                 let place = self.place(report, motion);
-                if let Freedom::Turn { .. } = motion.freedom {
+                if motion.freedom != Freedom::Slide {
                     let angle = position + Traced::constant(motion.zero);
-                    numbers.push((place.coordinate, angle.cos().place()));
-                    numbers.push((place.coordinate + 1, angle.sin().place()));
-                } else {
-                    numbers.push((place.coordinate, position.place()));
+                    let pair = 2 * motion.coordinate;
+                    numbers.push((pair, angle.cos().place()));
+                    numbers.push((pair + 1, angle.sin().place()));
+                }
+                match motion.freedom {
+                    Freedom::Turn { .. } => {}
+                    // The counter of a screw is the joint's own angle.
+                    Freedom::Screw { .. } => {
+                        let own = argument::<P>(2 * k);
+                        numbers.push((place.coordinate, own.place()));
+                    }
+                    _ => numbers.push((place.coordinate, position.place())),
                 }
                 numbers.push((place.rate, rate.place()));
+            }
+            for counted in counted {
+                let mut angle = Traced::<P>::constant(counted.start);
+                for (known, &part) in known.iter().zip(&counted.parts) {
+                    if let (Some([position, _]), true) = (known, part != 0.0) {
+                        angle = Traced::constant(part) * *position + angle;
+                    }
+                }
+                numbers.push((counted.place, angle.place()));
             }
             numbers
         });
@@ -180,7 +269,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         };
         self.add(Function {
             name: "set_joints".to_owned(),
-            about: "Puts what the joints have into a state; what it has of no joint stays."
+            about: "Puts what the joints have into a state, angles over any number of turns; what it has of no joint stays."
                 .to_owned(),
             arguments: vec![structure("joints", joints), written("state", STATE)],
             outputs: written_numbers.into_iter().map(output).collect(),
@@ -188,6 +277,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             returned: None,
             is_public: true,
             is_checked: false,
+            guard: None,
         });
     }
 
@@ -294,6 +384,7 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
             returned: None,
             is_public: true,
             is_checked: false,
+            guard: None,
         });
         self
     }

@@ -115,6 +115,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             returned: None,
             is_public: true,
             is_checked: false,
+            guard: None,
         });
         self
     }

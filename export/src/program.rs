@@ -101,13 +101,36 @@ pub(crate) struct Function {
     /// Whether it returns a status, and writes nothing where its numbers are not finite or where
     /// the number that it would return, the least relative pivot, vanishes.
     pub(crate) is_checked: bool,
+    /// A number that has to be zero or positive, else it writes nothing.
+    pub(crate) guard: Option<(Place, Guard)>,
+}
+
+/// What a number says that must not be negative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Guard {
+    /// That no limit is passed.
+    Limits,
+    /// That an iteration has converged.
+    Converged,
+}
+
+impl Guard {
+    /// The status where it is negative, without the name of the program.
+    pub(crate) fn status(self) -> &'static str {
+        match self {
+            Self::Limits => "LIMIT",
+            Self::Converged => "NOT_CONVERGED",
+        }
+    }
 }
 
 impl Function {
     /// Everything that it gives.
     pub(crate) fn given(&self) -> impl Iterator<Item = Place> + '_ {
         let outputs = self.outputs.iter().map(|output| output.place);
-        self.returned.into_iter().chain(outputs)
+        let guard = self.guard.map(|(place, _)| place);
+        let conditions = self.returned.into_iter().chain(guard);
+        conditions.chain(outputs)
     }
 
     /// How many additions, multiplications and functions of numbers one call takes, without those

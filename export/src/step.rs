@@ -7,13 +7,14 @@ use holonom::{Fault, Mechanism, Scalar};
 
 use crate::export::{CONSTANTS, Export, STATE, TIMES, argument, outputs, structure, written};
 use crate::number::{Precision, Traced};
-use crate::program::{Argument, Function, Kind};
+use crate::program::{Argument, Function, Guard, Kind};
 use crate::system::{Called, StateOf, numbers};
 use crate::tape::traced;
 
 impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     /// A step of a method, as a [`Stepper`](holonom::Stepper) takes it: the state is left as
-    /// before where the step leads to no finite state.
+    /// before where the step leads to no finite state, or farther beyond a limit of a joint than
+    /// it began. Where a joint leaves its limits and comes back within one step, it is not seen.
     #[must_use]
     pub fn step<K>(mut self, scheme: K) -> Self
     where
@@ -37,12 +38,17 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 pivot: None,
             };
             let next = advanced(&scheme, &mut system, (time, &state), dt)?;
-            let [time, rest] = after(time, rest, dt);
-            let mut all = vec![time.place(), rest.place()];
+            let [end, rest] = after(time, rest, dt);
+            let mut all = vec![end.place(), rest.place()];
             all.extend(numbers(&next).into_iter().map(Traced::place));
-            Ok((system.pivot.map(Traced::place), all))
+            let guard = (!self.limited.is_empty()).then(|| {
+                let [before, after] = [&state, &next].map(|of| C::bodies_by_selection(&own, of));
+                self.step_guard(&absolute, [(time, &before), (end, &after)], dt)
+            });
+            let guard = guard.flatten().map(Traced::place);
+            Ok((system.pivot.map(Traced::place), guard, all))
         });
-        let (pivot, next) = match result {
+        let (pivot, guard, next) = match result {
             Ok(result) => result,
             Err(fault) => {
                 let fault: Fault = fault;
@@ -69,6 +75,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             returned: pivot,
             is_public: true,
             is_checked: true,
+            guard: guard.map(|place| (place, Guard::Limits)),
         });
         self
     }

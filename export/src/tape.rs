@@ -165,6 +165,11 @@ impl Tape {
         place
     }
 
+    /// Where an operation stands, if it does.
+    pub(crate) fn find(&self, operation: Operation) -> Option<Place> {
+        self.known.get(&operation).copied()
+    }
+
     pub(crate) fn number(&mut self, value: f64) -> Place {
         self.intern(Operation::Constant(value.to_bits()))
     }

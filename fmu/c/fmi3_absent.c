@@ -1,6 +1,6 @@
 /*
- * Functions of the Functional Mock-up Interface 3.0 that no mechanism needs. A change of mode is
- * nothing, and there are no events. Of what no mechanism has, variables of other types, clocks,
+ * Functions of the Functional Mock-up Interface 3.0 that no mechanism needs. Most changes of mode are
+ * nothing. Of what no mechanism has, variables of other types, clocks,
  * structural parameters and scheduled execution, they return fmi3Error unless nothing is asked.
  */
 #include "fmi3Functions.h"
@@ -171,45 +171,11 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference
 
 OF_MODE(fmi3EnterConfigurationMode, fmi3Error)
 OF_MODE(fmi3ExitConfigurationMode, fmi3Error)
-OF_MODE(fmi3ExitInitializationMode, fmi3OK)
 OF_MODE(fmi3EnterEventMode, fmi3OK)
 OF_MODE(fmi3EnterContinuousTimeMode, fmi3OK)
 OF_MODE(fmi3EnterStepMode, fmi3OK)
 OF_MODE(fmi3EvaluateDiscreteStates, fmi3OK)
 OF_MODE(fmi3Terminate, fmi3OK)
-
-fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *need_update,
-    fmi3Boolean *terminate, fmi3Boolean *nominals_changed, fmi3Boolean *states_changed,
-    fmi3Boolean *has_next, fmi3Float64 *next)
-{
-    (void)instance;
-    *need_update = *terminate = *nominals_changed = *states_changed = *has_next = false;
-    *next = 0.0;
-    return fmi3OK;
-}
-
-fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean no_earlier_state,
-    fmi3Boolean *enter_event_mode, fmi3Boolean *terminate)
-{
-    (void)instance;
-    (void)no_earlier_state;
-    *enter_event_mode = *terminate = false;
-    return fmi3OK;
-}
-
-fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *count)
-{
-    (void)instance;
-    *count = 0;
-    return fmi3OK;
-}
-
-fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[], size_t count)
-{
-    (void)instance;
-    (void)indicators;
-    return count == 0 ? fmi3OK : fmi3Error;
-}
 
 fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token,
     fmi3String resources, fmi3Boolean visible, fmi3Boolean is_logging,

@@ -5,8 +5,10 @@
  *
  * A step of co-simulation is made of equal steps of the Runge-Kutta method of order 4 that are not
  * longer than FMU_INTERNAL_STEP. If it fails, everything is as it was before.
+ *
+ * Limits of joints and laws that switch are in fmi3_events.h.
  */
-#include "fmi3_mechanism.h"
+#include "fmi3_events.h"
 
 #include <stdlib.h>
 
@@ -103,6 +105,9 @@ static const double *numbers_of(mechanism *m, const variable *of, fmi3Status *st
         return m->now.parameters.number + of->first;
     case INPUT:
         return m->now.inputs.number + of->first;
+    case INDICATOR:
+        indicate(m);
+        return m->indicators + of->first;
     default:
         prepare(m);
         m->reading = fmu_reading(&m->constants, &m->now.state, of->first);
@@ -320,14 +325,55 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
         return failed(m, fmi3Error, "a step that is not positive, or does not begin at the time");
     }
     prepare(m);
-    for (double k = 0.0; k < count; k += 1.0) {
-        const int status = fmu_step(&m->constants, &m->now.state, step / count);
-        if (status != 0) {
+    for (double k = 0.0; k < count && !*terminate; k += 1.0) {
+        const fmi3Status status = step_between_limits(m, step / count, terminate);
+        if (status != fmi3OK) {
             m->now = before;
-            return discarded(m, status);
+            forget(m);
+            return status;
         }
-        read_back(m);
     }
     *last = m->now.state.number[0];
+    return fmi3OK;
+}
+
+fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
+{
+    return unless_beyond(instance);
+}
+
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *need_update,
+    fmi3Boolean *terminate, fmi3Boolean *nominals_changed, fmi3Boolean *states_changed,
+    fmi3Boolean *has_next, fmi3Float64 *next)
+{
+    *need_update = *terminate = *nominals_changed = *states_changed = *has_next = false;
+    *next = 0.0;
+    return strike(instance, states_changed, terminate);
+}
+
+fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean no_earlier_state,
+    fmi3Boolean *enter_event_mode, fmi3Boolean *terminate)
+{
+    (void)no_earlier_state;
+    *terminate = false;
+    *enter_event_mode = is_leaving(instance);
+    return fmi3OK;
+}
+
+fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *count)
+{
+    (void)instance;
+    *count = INDICATORS;
+    return fmi3OK;
+}
+
+fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[], size_t count)
+{
+    mechanism *m = instance;
+    if (count != INDICATORS) {
+        return failed(m, fmi3Error, "not this many event indicators");
+    }
+    indicate(m);
+    memcpy(indicators, m->indicators, count * sizeof *indicators);
     return fmi3OK;
 }

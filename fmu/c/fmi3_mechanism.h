@@ -17,10 +17,11 @@
 
 #define AT_LEAST_ONE(count) ((count) > 0 ? (count) : 1)
 #define COLUMNS (FMU_STATES + FMU_PARAMETERS + FMU_INPUTS)
+#define INDICATORS (2 * FMU_LIMITED + FMU_SWITCHES)
 #define TIMES 2
 #define TURN 6.28318530717958647692
 
-typedef enum { TIME, STATE, DERIVATIVE, PARAMETER, INPUT, READING } kind;
+typedef enum { TIME, STATE, DERIVATIVE, PARAMETER, INPUT, READING, INDICATOR } kind;
 
 /* A variable, by its value reference: which numbers it has. */
 typedef struct {
@@ -41,6 +42,9 @@ static const coordinate coordinates[] = {FMU_COORDINATES};
 /* The coordinates, each behind that which it is against. */
 static const size_t order[] = {FMU_ORDER};
 
+/* A variable, which may be compared with zero. */
+static const size_t angles = FMU_ANGLES;
+
 #define VARIABLES (sizeof variables / sizeof *variables)
 
 /* What determines everything else: the state that an importer saves. */
@@ -49,6 +53,10 @@ typedef struct {
     fmu_state state;
     fmu_parameters parameters;
     fmu_inputs inputs;
+    /* The fastest approach of each joint to a limit (rad/s, m/s). */
+    double fastest[AT_LEAST_ONE(FMU_LIMITED)];
+    /* Not zero where a joint has been within its limits since the last impact. */
+    double is_within[AT_LEAST_ONE(FMU_LIMITED)];
 } values;
 
 typedef enum { NOTHING, INPUTS, PARAMETERS } changed;
@@ -61,6 +69,7 @@ typedef struct {
     bool has_derivatives;
     double rates[FMU_STATES];
     double reading;
+    double indicators[AT_LEAST_ONE(INDICATORS)];
     fmu_jacobian jacobian;
     fmu_sensitivities sensitivities;
     fmi3InstanceEnvironment environment;
@@ -71,7 +80,8 @@ typedef struct {
 static fmi3Status failed(const mechanism *m, fmi3Status status, const char *message)
 {
     if (m->log && m->is_logging) {
-        m->log(m->environment, status, "logStatusError", message);
+        const char *category = status == fmi3Warning ? "logStatusWarning" : "logStatusError";
+        m->log(m->environment, status, category, message);
     }
     return status;
 }
@@ -81,8 +91,9 @@ static fmi3Status discarded(const mechanism *m, int status)
     static const char *const messages[] = {
         "", "a step that is not positive",
         "equations depend on each other in this state: their solution has no digit left",
-        "a number is not finite"};
-    return failed(m, fmi3Discard, messages[status > 0 && status < 4 ? status : 3]);
+        "a number is not finite",
+        "a joint passes a limit, and is not at it after any part of the step"};
+    return failed(m, fmi3Discard, messages[status > 0 && status < 5 ? status : 3]);
 }
 
 /* The numbers of joints as those of the program. */
@@ -113,7 +124,7 @@ static void put(mechanism *m)
     double y[FMU_STATES], *number = m->now.state.number + TIMES;
     sums(m->now.x, y);
     for (size_t k = 0; k < FMU_STATES; ++k) {
-        if (k < FMU_ANGLES) {
+        if (k < angles) {
             *number++ = cos(y[k]);
             *number++ = sin(y[k]);
         } else {
@@ -130,7 +141,7 @@ static void read_back(mechanism *m)
     const double *number = m->now.state.number + TIMES;
     sums(m->now.x, y);
     for (size_t k = 0; k < FMU_STATES; ++k) {
-        if (k < FMU_ANGLES) {
+        if (k < angles) {
             const double angle = atan2(number[1], number[0]);
             y[k] = angle + TURN * round((y[k] - angle) / TURN);
             number += 2;
@@ -156,6 +167,10 @@ static void start(mechanism *m)
     static const double x[] = {FMU_START};
     fmu_start(&m->now.state, &m->now.parameters, &m->now.inputs);
     memcpy(m->now.x, x, sizeof x);
+    for (size_t k = 0; k < AT_LEAST_ONE(FMU_LIMITED); ++k) {
+        m->now.fastest[k] = 0.0;
+        m->now.is_within[k] = 1.0;
+    }
     m->changed = PARAMETERS;
     forget(m);
 }

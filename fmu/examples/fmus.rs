@@ -14,8 +14,8 @@ use holonom::{JointCoordinates, Sample};
 use holonom_fmu::Fmu;
 use holonom_models::{CartPole, FourBar, HeavyTop, Ur5};
 
-/// Two links on parallel axes, with a damper and a motor at the first one, and a current that a
-/// voltage drives.
+/// Two links on parallel axes with stops between them, with a damper and a motor at the first one,
+/// and a current that a voltage drives.
 #[derive(Clone, Copy, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 struct Arm {
@@ -40,7 +40,10 @@ struct Arm {
     lower: Body,
     #[joint(between = [ground, upper], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
     shoulder: Revolute,
-    #[joint(between = [upper, lower], point = [0.0, 1.0, 0.0], axis = [-1.0, 0.0, 0.0])]
+    #[joint(
+        between = [upper, lower], point = [0.0, 1.0, 0.0], axis = [-1.0, 0.0, 0.0],
+        limits = [-0.4, 1.5], restitution = 0.7
+    )]
     elbow: Revolute,
     #[force(
         between = [ground, upper],
@@ -80,6 +83,11 @@ where
         .simulation(formulation, DormandPrince::new(tight))
         .joint_coordinates()
         .run(0.0..=end, every(end / 100.0), |sample| {
+            // A run is shown before and after impacts as well.
+            let periods = sample.time() / end * 100.0;
+            if (periods - periods.round()).abs() > 1e-9 {
+                return;
+            }
             let numbers = columns.iter().map(|(_, read)| read(sample));
             let numbers: Vec<String> = numbers.map(|number| format!("{number:?}")).collect();
             lines += &format!("{:?},{}\n", sample.time(), numbers.join(","));

@@ -75,6 +75,7 @@ pub(crate) fn model(of: &Description<'_>, variables: &[Variable]) -> io::Result<
         interfaces(document, of)?;
         units(document, variables)?;
         document.element("LogCategories", &[], |document| {
+            document.empty("Category", &[("name", "logStatusWarning")])?;
             document.empty("Category", &[("name", "logStatusError")])
         })?;
         document.empty("DefaultExperiment", &[("startTime", "0.0")])?;
@@ -130,7 +131,7 @@ const fn role(kind: Kind) -> [&'static str; 3] {
     match kind {
         Kind::Time => ["independent", "continuous", ""],
         Kind::State => ["output", "continuous", "exact"],
-        Kind::Derivative => ["local", "continuous", "calculated"],
+        Kind::Derivative | Kind::Indicator => ["local", "continuous", "calculated"],
         Kind::Parameter => ["parameter", "tunable", "exact"],
         // Exact, which the standard leaves out here.
         Kind::Input => ["input", "continuous", ""],
@@ -188,7 +189,8 @@ fn structure(document: &mut Document, variables: &[Variable]) -> io::Result<()> 
     };
     list("Output", &[Kind::State, Kind::Reading])?;
     list("ContinuousStateDerivative", &[Kind::Derivative])?;
-    list("InitialUnknown", &[Kind::Derivative, Kind::Reading])
+    list("InitialUnknown", &[Kind::Derivative, Kind::Reading])?;
+    list("EventIndicator", &[Kind::Indicator])
 }
 
 /// How the sources are compiled.

@@ -16,8 +16,9 @@ use crate::variables::{self, Variable};
 use crate::{archive, binary, model};
 
 /// Files in C, and headers, that are the same in every unit.
-const FILES: [(&str, &str); 6] = [
+const FILES: [(&str, &str); 7] = [
     ("fmi3_absent.c", include_str!("../c/fmi3_absent.c")),
+    ("fmi3_events.h", include_str!("../c/fmi3_events.h")),
     ("fmi3_functions.c", include_str!("../c/fmi3_functions.c")),
     ("fmi3_mechanism.h", include_str!("../c/fmi3_mechanism.h")),
     (
@@ -146,7 +147,8 @@ impl<M: Mechanism, C: TracedCoordinates<M>> Fmu<M, C> {
         self
     }
 
-    /// Writes the mechanism although it has limits, which a unit passes as if there were none.
+    /// Passes limits of joints as if there were none. Else joints turn back there, see the
+    /// [documentation of the crate](crate#limits-and-laws-that-switch).
     #[must_use]
     pub fn without_limits(mut self) -> Self {
         self.export = self.export.without_limits();

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use holonom_export::{Coordinate, Interface, Quantity};
 
-use crate::variables::Variable;
+use crate::variables::{Variable, indicators};
 
 /// How many numbers a state has before those that are moved: the time in two parts.
 const TIMES: usize = 2;
@@ -43,6 +43,13 @@ fn list(items: impl Iterator<Item = String>) -> String {
     items.collect::<Vec<_>>().join(", \\\n    ")
 }
 
+/// The names of distances to limits as texts in C, and an empty one.
+fn gaps(of: &Interface) -> impl Iterator<Item = String> {
+    let gaps = indicators(of).into_iter().take(of.gaps.len() / 3 * 2);
+    let names = gaps.map(|gap| format!("\"{}\"", gap.name));
+    names.chain(["\"\"".to_owned()])
+}
+
 /// The text of the header.
 pub(crate) fn header(
     of: &Interface,
@@ -70,6 +77,8 @@ pub(crate) fn header(
 #define FMU_PARAMETERS {parameters}
 #define FMU_INPUTS {inputs}
 #define FMU_READINGS {readings}
+#define FMU_LIMITED {limited}
+#define FMU_SWITCHES {switches}
 
 /* Kind, first number, count of numbers. */
 #define FMU_VARIABLES \\
@@ -85,11 +94,18 @@ pub(crate) fn header(
 #define FMU_START \\
     {start}
 
+/* What two numbers of each joint with limits say, and the end. */
+#define FMU_GAPS \\
+    {gaps}
+
 ",
         version = env!("CARGO_PKG_VERSION"),
         n = of.name,
         all = states.len(),
         readings = of.readings.len(),
+        limited = of.gaps.len() / 3,
+        switches = of.switches.len(),
+        gaps = list(gaps(of)),
         variables = list(variables.iter().map(variable)),
         coordinates = list(states.iter().map(coordinate)),
         order = list(order(states).iter().map(usize::to_string)),
@@ -108,6 +124,8 @@ pub(crate) fn header(
         ("inputs", "inputs", inputs),
         ("jacobian", "jacobian", states.len() * columns),
         ("sensitivities", "sensitivities", readings * columns),
+        ("gaps", "gaps", of.gaps.len()),
+        ("switches", "switches", of.switches.len()),
     ] {
         union(&of.name, name, of_program, numbers, columns, &mut text);
     }
@@ -240,11 +258,41 @@ fn of_parameters(of: &Interface) -> [Wrapper; 5] {
 }
 
 /// Those that are given constants and a state.
-fn of_states(of: &Interface) -> [Wrapper; 3] {
+fn of_states(of: &Interface) -> [Wrapper; 6] {
     let n = &of.name;
     let constants = "const fmu_constants *constants, ";
     let handed = if of.has_constants { "constants, " } else { "" };
+    let reading = |name: &str, is_there: bool| {
+        if is_there {
+            format!("{n}_get_{name}({handed}&state->of, &{name}->of);")
+        } else {
+            String::new()
+        }
+    };
+    let impact = if of.gaps.is_empty() {
+        "return 0;".to_owned()
+    } else {
+        format!("return (int){n}_impact({handed}&state->of, within, rest);")
+    };
     [
+        Wrapper::new(
+            "void",
+            "get_gaps",
+            format!("{constants}const fmu_state *state, fmu_gaps *gaps"),
+            reading("gaps", !of.gaps.is_empty()),
+        ),
+        Wrapper::new(
+            "void",
+            "get_switches",
+            format!("{constants}const fmu_state *state, fmu_switches *switches"),
+            reading("switches", !of.switches.is_empty()),
+        ),
+        Wrapper::new(
+            "int",
+            "impact",
+            format!("{constants}fmu_state *state, double within, double rest"),
+            impact,
+        ),
         Wrapper::new(
             "int",
             "rates",

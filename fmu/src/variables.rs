@@ -16,6 +16,7 @@ pub(crate) enum Kind {
     Parameter,
     Input,
     Reading,
+    Indicator,
 }
 
 impl Kind {
@@ -28,6 +29,7 @@ impl Kind {
             Self::Parameter => "PARAMETER",
             Self::Input => "INPUT",
             Self::Reading => "READING",
+            Self::Indicator => "INDICATOR",
         }
     }
 }
@@ -55,7 +57,22 @@ impl Variable {
     }
 }
 
-/// All variables: the time, states, their derivatives, parameters, inputs and readings.
+/// What an event indicator reads: distances to limits, then expressions of laws that switch.
+pub(crate) fn indicators(interface: &Interface) -> Vec<Quantity> {
+    // Each joint with limits has a rate behind its two distances.
+    let gaps = interface.gaps.chunks(3).flat_map(|of| of.iter().take(2));
+    let named = |of: &Quantity, word: &str| {
+        let mut named = of.clone();
+        named.name = format!("{}_{word}", of.name);
+        named
+    };
+    let gaps = gaps.map(|of| named(of, "gap"));
+    let switches = interface.switches.iter().map(|of| named(of, "switch"));
+    gaps.chain(switches).collect()
+}
+
+/// All variables: the time, states, their derivatives, parameters, inputs, readings and event
+/// indicators.
 pub(crate) fn of(
     interface: &Interface,
     abouts: &[(String, String)],
@@ -83,10 +100,12 @@ pub(crate) fn of(
             ..variable(&state.quantity, Kind::Derivative, first)
         });
     }
+    let indicators = indicators(interface);
     let lists = [
         (&interface.parameters, Kind::Parameter),
         (&interface.inputs, Kind::Input),
         (&interface.readings, Kind::Reading),
+        (&indicators, Kind::Indicator),
     ];
     for (list, kind) in lists {
         let mut first = 0;

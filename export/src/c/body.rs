@@ -65,7 +65,9 @@ pub(super) fn body(
         path.is_some_and(Option::is_some)
     };
     let outputs = function.outputs.iter().filter(is_written);
-    let outputs = outputs.map(|output| output.place).chain(function.returned);
+    let conditions = function.guard.map(|(place, _)| place);
+    let conditions = conditions.into_iter().chain(function.returned);
+    let outputs = outputs.map(|output| output.place).chain(conditions);
     let outputs: Vec<Place> = outputs.collect();
     let (needed, called) = function.tape.needed(outputs.iter().copied());
     let (branches, within) = if text.has_branches {
@@ -111,7 +113,11 @@ pub(super) fn body(
 impl Body<'_> {
     fn write(&mut self) {
         let function = self.function;
-        if function.is_checked {
+        let takes_a_step = function
+            .arguments
+            .iter()
+            .any(|argument| argument.name == "dt");
+        if function.is_checked && takes_a_step {
             let (upper, zero) = (&self.text.upper, number(0.0));
             let mut condition = format!("!(dt > {zero})");
             if self.text.has_time {
@@ -194,10 +200,19 @@ impl Body<'_> {
         });
         let sum = balanced(&differences.collect::<Vec<_>>());
         let (real, zero) = (self.text.real(), number(0.0));
-        let _ = writeln!(
-            self.lines,
-            "    const {real} zero =\n        {sum};\n    if (!(zero <= {zero})) {{\n        return {upper}_NOT_FINITE;\n    }}"
-        );
+        if !sum.is_empty() {
+            let _ = writeln!(
+                self.lines,
+                "    const {real} zero =\n        {sum};\n    if (!(zero <= {zero})) {{\n        return {upper}_NOT_FINITE;\n    }}"
+            );
+        }
+        if let Some((guard, of)) = function.guard {
+            let (guard, status) = (self.operand(guard), of.status());
+            let _ = writeln!(
+                self.lines,
+                "    if (!({guard} >= {zero})) {{\n        return {upper}_{status};\n    }}"
+            );
+        }
     }
 
     fn name(&self, place: Place) -> String {

@@ -157,5 +157,5 @@ pub(super) fn partner(tape: &Tape, operation: Operation) -> Option<Place> {
         Operation::Unary(Unary::TurnVersine, of) => Operation::Unary(Unary::TurnSine, of),
         _ => return None,
     };
-    operations(tape).find_map(|(place, operation)| (operation == other).then_some(place))
+    tape.find(other)
 }

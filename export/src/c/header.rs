@@ -34,6 +34,14 @@ pub(super) fn header<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
 #define {u}_FUNCTION
 #endif
 
+/* Structs of one call do not overlap. One that is read and written, such as the state of a step, is
+ * handed over once. */
+#if defined(__cplusplus) || defined(_MSC_VER)
+#define {u}_RESTRICT __restrict
+#else
+#define {u}_RESTRICT restrict
+#endif
+
 #ifdef __cplusplus
 extern \"C\" {{
 #endif
@@ -49,7 +57,11 @@ typedef enum {n}_status {{
     /* Equations depend on each other here: their solution has no digit left. */
     {u}_SINGULAR = 2,
     /* A number that is not finite. */
-    {u}_NOT_FINITE = 3
+    {u}_NOT_FINITE = 3,
+    /* A step would pass a limit of a joint: take a shorter one up to it. */
+    {u}_LIMIT = 4,
+    /* A projection that has not converged. */
+    {u}_NOT_CONVERGED = 5
 }} {n}_status;
 
 ",
@@ -123,7 +135,7 @@ fn functions(text: &Text, program: &Program, header: &mut String) {
         }
     }
     let constants = if has(CONSTANTS) {
-        format!("const {n}_constants *constants, ")
+        format!("const {n}_constants *{u}_RESTRICT constants, ")
     } else {
         String::new()
     };
@@ -151,6 +163,6 @@ fn functions(text: &Text, program: &Program, header: &mut String) {
     }
     let _ = writeln!(
         header,
-        "/* The rates of a state at its time. */\n{u}_FUNCTION {n}_status {n}_rates({constants}const {n}_state *state, {n}_slope *slope);\n"
+        "/* The rates of a state at its time. */\n{u}_FUNCTION {n}_status {n}_rates({constants}const {n}_state *{u}_RESTRICT state, {n}_slope *{u}_RESTRICT slope);\n"
     );
 }

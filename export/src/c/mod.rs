@@ -163,10 +163,11 @@ impl Text {
                 continue;
             }
             let (kind, name) = (self.named(of.name), argument.name);
+            let restrict = format!("{}_RESTRICT", self.upper);
             declared.push(if argument.is_output || is_twice {
-                format!("{kind} *{name}")
+                format!("{kind} *{restrict} {name}")
             } else {
-                format!("const {kind} *{name}")
+                format!("const {kind} *{restrict} {name}")
             });
         }
         if declared.is_empty() {

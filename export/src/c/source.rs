@@ -157,7 +157,10 @@ fn wrappers<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
     let (declared, handed) = if structs[CONSTANTS].members.is_empty() {
         (String::new(), "")
     } else {
-        (format!("const {n}_constants *constants, "), "constants, ")
+        (
+            format!("const {n}_constants *{u}_RESTRICT constants, "),
+            "constants, ",
+        )
     };
     let evaluate = if text.has_pivot {
         format!("const {real} pivot = {n}_evaluate({handed}state, &rates);")
@@ -174,7 +177,7 @@ fn wrappers<M: Mechanism, P: Precision, C: TracedCoordinates<M>>(
     let _ = writeln!(
         functions,
         "\
-{u}_FUNCTION {n}_status {n}_rates({declared}const {n}_state *state, {n}_slope *slope)
+{u}_FUNCTION {n}_status {n}_rates({declared}const {n}_state *{u}_RESTRICT state, {n}_slope *{u}_RESTRICT slope)
 {{
     {n}_slope rates;
     {evaluate}

@@ -5,7 +5,7 @@ use crate::compiled::{Program, random_state};
 use holonom::mechanism::{Absolute, HasInverse as _, HasMassMatrix as _, Relative};
 use holonom::prelude::*;
 use holonom::state::Vector;
-use holonom_export::{Double, Export, ExportError, ExportExt as _, Single, Source};
+use holonom_export::{Double, Export, ExportExt as _, Single, Source};
 use holonom_models::{FourBar, Ur5};
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
@@ -91,6 +91,82 @@ fn joints_are_what_the_report_says_and_can_be_put_back() {
             );
             near(again[2 * motion], position, 1e-14, "angle put back");
             near(again[2 * motion + 1], rate, 1e-14, "rate put back");
+        }
+    }
+}
+
+/// Two links on parallel axes, with springs that count the turns of one joint and of both, and a nut
+/// on a screw.
+#[derive(Clone, Copy, Debug, Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+struct Wound {
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.5, 0.0])]
+    first: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 1.0, 0.5])]
+    second: Body,
+    #[body(mass = 2.0, inertia = [0.01, 0.01, 0.02], position = [1.0, 0.0, 0.0])]
+    nut: Body,
+    #[joint(between = [ground, first], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    shoulder: Revolute,
+    #[joint(between = [first, second], point = [0.0, 1.0, 0.0], axis = [-1.0, 0.0, 0.0])]
+    elbow: Revolute,
+    #[joint(
+        between = [ground, nut], point = [1.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0], pitch = 0.1
+    )]
+    thread: Screw,
+    #[force(between = [first, second], axis = [1.0, 0.0, 0.0], stiffness = 2.0)]
+    spring: TorsionalSpringDamper,
+    #[force(between = [ground, second], axis = [-1.0, 0.0, 0.0], stiffness = 3.0)]
+    outer: TorsionalSpringDamper,
+}
+
+/// What joints have is put into a state over any number of turns, and what counts them goes along.
+#[test]
+fn joints_whose_turns_are_counted_are_set_over_all_turns() {
+    let wound = Wound::default();
+    let export = wound.export(StandardLagrange).named("wound");
+    let source = export.c().expect("exported");
+    let program = program(
+        &source,
+        "wound_joints joints;",
+        "joints",
+        "wound_set_joints(&joints, &state);",
+        "state",
+    );
+    let stepper = wound.stepper(StandardLagrange, Rk4).expect("described");
+    let start = stepper.initial_state().expect("described");
+    let h = Wound::HANDLES;
+    for angles in [[0.3, -0.7, 1.0], [7.0, -9.0, 20.0], [-30.0, 31.0, -4.0]] {
+        let rates = [0.5, -2.0, 3.0];
+        let [a, b, c] = angles;
+        let [u, v, w] = rates;
+        // In the order of the header.
+        let joints = [a, u, c, w, b, v];
+        let found = program.run(&[given(&start), joints.to_vec()].concat());
+        let mut bodies = stepper.bodies(&start);
+        let set = wound.set_angle(&mut bodies, h.shoulder, a);
+        set.expect("it is free");
+        wound
+            .set_angle(&mut bodies, h.elbow, b)
+            .expect("it is free");
+        wound
+            .set_angle(&mut bodies, h.thread, c)
+            .expect("it is free");
+        let handles = [h.shoulder, h.elbow];
+        for (handle, rate) in handles.into_iter().zip(rates) {
+            let set = wound.set_angle_rate(&mut bodies, handle, rate);
+            set.expect("it is free");
+        }
+        let set = wound.set_angle_rate(&mut bodies, h.thread, w);
+        set.expect("it is free");
+        let expected = stepper.state_of(&bodies).expect("a state");
+        for (number, expected) in given(&expected).into_iter().enumerate() {
+            near(
+                found[number],
+                expected,
+                1e-13,
+                &format!("{angles:?}, {number}"),
+            );
         }
     }
 }
@@ -284,65 +360,6 @@ fn derivatives_are_those_of_differences() {
         .expect("described");
     let stepper = stepper.absolute_coordinates();
     differences(&source, &stepper.initial_state().expect("described"), "");
-}
-
-#[test]
-fn what_cannot_be_exported_is_named() {
-    let bars = FourBar::default();
-    let refused = bars.export(Penalty::default()).c();
-    assert!(
-        matches!(refused, Err(ExportError::Formulation)),
-        "{refused:?}"
-    );
-    let compared = bars.export(StandardLagrange).reading("side", "", |view| {
-        let height = view.position(FourBar::HANDLES.coupler).y;
-        if height == holonom::Scalar::zero() {
-            height
-        } else {
-            -height
-        }
-    });
-    let refused = compared.c().expect_err("it compares").to_string();
-    assert!(refused.contains("`side` compares numbers"), "{refused}");
-    let before = bars
-        .export(StandardLagrange)
-        .reading("jacobian", "", |view| view.time());
-    let refused = before
-        .derivatives()
-        .c()
-        .expect_err("a struct has the name")
-        .to_string();
-    assert_eq!(refused, "the name `jacobian` is given twice");
-    let bars_by_joints = Export::<_, Double, Relative>::new(&bars, StandardLagrange);
-    let refused = bars_by_joints
-        .joint_derivatives()
-        .c()
-        .expect_err("not asked for");
-    assert!(
-        refused
-            .to_string()
-            .contains("write `kernels = [derivatives]`"),
-        "{refused}"
-    );
-    let twice = bars
-        .export(StandardLagrange)
-        .reading("state", "", |view| view.time());
-    let refused = twice.c().expect_err("the name is taken").to_string();
-    assert_eq!(refused, "the name `state` is given twice");
-    assert!(matches!(
-        Stuck::default().export(StandardLagrange).c(),
-        Err(ExportError::Still)
-    ));
-}
-
-/// Nothing moves by its joints.
-#[derive(Mechanism)]
-#[mechanism(coordinates = "joints")]
-struct Stuck {
-    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 0.0])]
-    block: Body,
-    #[joint(between = [ground, block], point = [0.0, 0.0, 0.0])]
-    weld: Fixed,
 }
 
 #[test]

@@ -4,4 +4,6 @@ mod bits;
 mod compiled;
 mod functions;
 mod interface;
+mod limits;
+mod refused;
 mod rollout;

@@ -26,12 +26,12 @@ const STRICT: &[&str] = &[
     "-O1",
 ];
 
-/// Compiles the files of a unit with the driver.
-fn driver(unit: &Unit, name: &str) -> PathBuf {
+/// Compiles the files of a unit with a driver.
+fn driver(unit: &Unit, name: &str, (file, text): (&str, &str)) -> PathBuf {
     let folder = path(name);
     fs::create_dir_all(&folder).expect("a folder");
-    fs::write(folder.join("driver.c"), include_str!("driver.c")).expect("a file is written");
-    let mut sources = vec!["driver.c".to_owned()];
+    fs::write(folder.join(file), text).expect("a file is written");
+    let mut sources = vec![file.to_owned()];
     for (file, bytes) in &unit.files {
         if let Some(file) = file.strip_prefix("sources/") {
             fs::write(folder.join(file), bytes).expect("a file is written");
@@ -50,21 +50,35 @@ fn driver(unit: &Unit, name: &str) -> PathBuf {
     folder.join("driver")
 }
 
-/// The numbers that a unit has after some steps: states, then their derivatives.
-fn driven(unit: &Unit, name: &str, steps: u32, step: f64) -> Vec<f64> {
+/// What a driver writes that is given the token of a unit and further arguments, and what is logged.
+pub(crate) fn ran(
+    unit: &Unit,
+    name: &str,
+    of: (&str, &str),
+    arguments: &[String],
+) -> (Vec<f64>, String) {
     let document = unit.description();
     let token = document.root_element().attribute("instantiationToken");
-    let mut command = Command::new(driver(unit, name));
+    let mut command = Command::new(driver(unit, name, of));
     command.arg(token.expect("a token"));
-    let output = command
-        .args([steps.to_string(), format!("{step:?}")])
-        .output();
-    let output = output.expect("it runs");
+    let output = command.args(arguments).output().expect("it runs");
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{name}: {message}");
     let (numbers, _) = output.stdout.as_chunks::<8>();
     let numbers = numbers.iter().map(|bytes| f64::from_ne_bytes(*bytes));
-    numbers.collect()
+    (numbers.collect(), message.into_owned())
+}
+
+/// The numbers that a unit has after some steps: states, then their derivatives.
+fn driven(unit: &Unit, name: &str, steps: u32, step: f64) -> Vec<f64> {
+    let driver = ("driver.c", include_str!("driver.c"));
+    let (numbers, _) = ran(
+        unit,
+        name,
+        driver,
+        &[steps.to_string(), format!("{step:?}")],
+    );
+    numbers
 }
 
 fn near(found: f64, expected: f64, what: &str) {

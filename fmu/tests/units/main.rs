@@ -1,5 +1,6 @@
 //! Functional mock-up units: what is in them, and their files in C, compiled and run.
 
+mod bounced;
 mod driven;
 mod refused;
 mod unit;

@@ -156,6 +156,7 @@ fn the_same_unit_has_the_same_bytes_and_its_sources() {
             "sources/fmi3Functions.h",
             "sources/fmi3PlatformTypes.h",
             "sources/fmi3_absent.c",
+            "sources/fmi3_events.h",
             "sources/fmi3_functions.c",
             "sources/fmi3_mechanism.h",
             "sources/fmi3_model.h",

@@ -9,6 +9,8 @@
 //! `require` excludes, by the gradient of the requirement, before an assembly begins. Requirements
 //! are readings, bound on demand.
 //!
+//! `traced.rs` has a fixed number of iterations, for programs in other languages.
+//!
 //! Scales: `docs/decisions/013-scales-of-a-scene.md`.
 
 pub(crate) mod apart;
@@ -24,6 +26,7 @@ pub(crate) mod rows;
 pub(crate) mod scales;
 pub(crate) mod self_stress;
 pub(crate) mod side;
+pub(crate) mod traced;
 
 pub use projection::{Correction, Moved};
 pub use scales::Scales;

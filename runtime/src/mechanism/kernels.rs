@@ -112,7 +112,7 @@ pub trait Mechanism: Sized + 'static {
 
     /// The limits of joints with parameters that were accepted, in the order of the fields.
     #[doc(hidden)]
-    fn limits_of<S: Real, T: Clone>(
+    fn limits_of<S: Scalar, T: Clone>(
         parameters: &Self::Parameters<S>,
         make: impl FnMut(JointLimits<S>) -> T,
     ) -> Self::PerLimit<T>;

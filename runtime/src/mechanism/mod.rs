@@ -29,7 +29,7 @@ pub(crate) mod setpoint;
 pub(crate) mod switch;
 pub(crate) mod table;
 pub(crate) mod terms;
-mod traced;
+pub(crate) mod traced;
 pub(crate) mod turns;
 
 pub use bodies::{Bodies, Joints};
@@ -67,5 +67,5 @@ pub use setpoint::Setpoint;
 pub use switch::Switch;
 #[doc(hidden)]
 pub use traced::{
-    QUARTER_OF_DOUBLE, QUARTER_OF_SINGLE, TURN_OF_DOUBLE, TURN_OF_SINGLE, TracedCoordinates,
+    AtTime, QUARTER_OF_DOUBLE, QUARTER_OF_SINGLE, TURN_OF_DOUBLE, TURN_OF_SINGLE, TracedCoordinates,
 };

@@ -9,10 +9,10 @@ use crate::math::vec3::read;
 use crate::math::versine;
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::{JointCoordinates, JointParts, JointReport};
-use crate::mechanism::kernels::{Mechanism, Normalised, Stabilisation};
+use crate::mechanism::kernels::{Mechanism, Normalised, Plain, Stabilisation};
 use crate::mechanism::relative::{bodies_by, recount};
 use crate::mechanism::report::BodyKind;
-use crate::state::vector::{Array, StateParts};
+use crate::state::vector::{Array, MovingState as _, StateParts};
 
 /// What a turn by an angle is made of, for programs that compute it as [`Scalar`] does in `f64`.
 pub const TURN_OF_DOUBLE: [[f64; 6]; 2] = versine::SIX;
@@ -55,6 +55,29 @@ pub trait TracedCoordinates<M: Mechanism>: Coordinates<M> {
         constants: &Self::Constants<S>,
         state: &Self::State<S>,
     ) -> M::State<S>;
+
+    /// The `u` of `M u + D^T lambda = loads` and `D u = lower` with rigid constraints, the loads on
+    /// bodies as [`Mechanism::forces`]; and the least relative pivot.
+    #[doc(hidden)]
+    fn moved_by<S: Scalar>(
+        prepared: (&Self::Constants<S>, &Self::Coefficients<S>),
+        at: (S, &Self::State<S>),
+        loads: &M::Velocities<S>,
+        lower: &Self::Multipliers<S>,
+    ) -> (Self::Velocities<S>, S);
+}
+
+/// A mechanism at an instant: what depends on parameters, on the formulation, and the time (s).
+#[derive(Debug)]
+pub struct AtTime<'a, S: Scalar, M: Mechanism, C: Coordinates<M>> {
+    /// What depends on parameters.
+    pub own: &'a C::Constants<S>,
+    /// The same in absolute coordinates.
+    pub absolute: &'a M::Constants<S>,
+    /// What depends on the formulation.
+    pub coefficients: &'a C::Coefficients<S>,
+    /// The time (s).
+    pub time: S,
 }
 
 /// Scales the Euler parameters at a place to length 1.
@@ -101,6 +124,17 @@ impl<M: Mechanism> TracedCoordinates<M> for Absolute<Normalised> {
     ) -> M::State<S> {
         *state
     }
+
+    fn moved_by<S: Scalar>(
+        (constants, coefficients): (&M::Constants<S>, &M::Coefficients<S>),
+        (time, state): (S, &M::State<S>),
+        loads: &M::Velocities<S>,
+        lower: &M::Multipliers<S>,
+    ) -> (M::Velocities<S>, S) {
+        let (factors, pivot) = M::factor::<S, Plain>(constants, coefficients, time, state);
+        let (moved, _) = M::solve::<S, Plain>(constants, coefficients, &factors, loads, lower);
+        (moved, pivot.relative)
+    }
 }
 
 impl<M: JointCoordinates> TracedCoordinates<M> for Relative {
@@ -142,5 +176,26 @@ impl<M: JointCoordinates> TracedCoordinates<M> for Relative {
     ) -> M::State<S> {
         let motions = M::body_motions(constants, state);
         bodies_by::<S, M>(&motions, |_, rows| from_matrix_by_selection(rows))
+    }
+
+    fn moved_by<S: Scalar>(
+        (constants, coefficients): (&M::JointConstants<S>, &M::JointCoefficients<S>),
+        (time, state): (S, &M::JointState<S>),
+        loads: &M::Velocities<S>,
+        lower: &M::ClosingMultipliers<S>,
+    ) -> (M::JointVelocities<S>, S) {
+        let mut rates = M::JointState::<S>::zeros();
+        let pivot = <Self as Coordinates<M>>::rates_into::<S, Plain>(
+            constants,
+            coefficients,
+            time,
+            state,
+            &mut rates,
+            &mut Array::zeros(),
+        );
+        let factors = M::factor_joints::<S, Plain>(constants, coefficients, time, state);
+        let (moved, _) =
+            M::solve_joints::<S, Plain>(constants, coefficients, &factors, loads, lower);
+        (moved, pivot.relative)
     }
 }

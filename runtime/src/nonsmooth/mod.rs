@@ -14,8 +14,8 @@
 //! `interaction.rs` is what a user writes, and `checked.rs` refuses settings of it. `handle.rs` is
 //! what it is called by, `status.rs` what a run knows of it.
 //!
-//! `described.rs` has the limits of a description. `remembered.rs` hands their statuses to
-//! checkpoints.
+//! `described.rs` has the limits of a description, and `traced.rs` what programs in other languages
+//! need of them. `remembered.rs` hands their statuses to checkpoints.
 //!
 //! Friction by the load of its joint: `bearing.rs` reads the load, `loads.rs` has it as a function
 //! of efforts, `slipping.rs` solves for what slides, `capacities.rs` for what may stick.
@@ -45,3 +45,4 @@ mod slipping;
 pub(crate) mod status;
 mod switch;
 pub(crate) mod task;
+pub(crate) mod traced;

@@ -87,7 +87,7 @@ macro_rules! __stub_mechanism {
                 };
                 fn parameters<__S: $crate::Scalar>(&self) -> ::core::result::Result<[__S; 0], $crate::ParameterError> { loop {} }
                 fn inputs<__S: $crate::Scalar>(&self) -> Self::Inputs<__S> { loop {} }
-                fn limits_of<__S: $crate::Real, __T: ::core::clone::Clone>(
+                fn limits_of<__S: $crate::Scalar, __T: ::core::clone::Clone>(
                     _: &[__S; 0], _: impl ::core::ops::FnMut($crate::mechanism::JointLimits<__S>) -> __T,
                 ) -> $crate::mechanism::Nothing { $crate::mechanism::Nothing }
                 fn prepare<__S: $crate::Scalar>(_: &[__S; 0]) -> [__S; 0] { [] }

@@ -120,7 +120,7 @@ impl Mechanism for Crank {
 
     fn inputs<S: Scalar>(&self) {}
 
-    fn limits_of<S: crate::Real, T: Clone>(
+    fn limits_of<S: Scalar, T: Clone>(
         _: &Self::Parameters<S>,
         _: impl FnMut(crate::mechanism::JointLimits<S>) -> T,
     ) -> crate::mechanism::Nothing {

@@ -51,7 +51,7 @@ pub(super) fn members(model: &Model, facade: &TokenStream) -> TokenStream {
     quote! {
         type PerLimit<__T: ::core::clone::Clone> = #kind;
 
-        fn limits_of<__S: #facade::Real, __T: ::core::clone::Clone>(
+        fn limits_of<__S: #facade::Scalar, __T: ::core::clone::Clone>(
             #parameters: &Self::Parameters<__S>,
             #by_ref #make: impl ::core::ops::FnMut(#facade::mechanism::JointLimits<__S>) -> __T,
         ) -> Self::PerLimit<__T> {
