@@ -52,8 +52,9 @@ class History {
 
 /** Calls of a module, as exceptions and numbers. */
 function border(exports) {
-  const text = () => new TextDecoder().decode(
-    new Uint8Array(exports.memory.buffer, exports.holonom_text(), exports.holonom_text_length()));
+  /** A part of the memory, which a call may replace: the place is asked for first. */
+  const part = (Type, place, length) => new Type(exports.memory.buffer, place, length);
+  const text = () => new TextDecoder().decode(part(Uint8Array, exports.holonom_text(), exports.holonom_text_length()));
   /** What a call left; an exception where it was refused, or where the program has ended. */
   const call = (name, ...given) => {
     let refused;
@@ -67,7 +68,7 @@ function border(exports) {
   return {
     call,
     json: (name) => (call(name), JSON.parse(text())),
-    numbers: () => new Float64Array(exports.memory.buffer, exports.holonom_numbers(), exports.holonom_numbers_length()),
+    numbers: () => part(Float64Array, exports.holonom_numbers(), exports.holonom_numbers_length()),
   };
 }
 

@@ -371,7 +371,9 @@ async function run() {
     sliders: module.sliders,
     get values() { return module.values; },
     set(name, value) {
-      module.set(module.sliders.findIndex((each) => each.name === name), value);
+      const place = module.sliders.findIndex((each) => each.name === name);
+      if (place < 0) throw new Error(`no slider is called ${name}`);
+      module.set(place, value);
       sliders.show();
     },
     restart: () => id("restart").click(),

@@ -7,13 +7,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The sources that are held to it.
-const FOLDERS: [&str; 9] = [
+const FOLDERS: [&str; 11] = [
     "macros/src",
     "macros/engine/src",
     "runtime/src",
     "film/src",
     "export/src",
     "fmu/src",
+    "live/src",
+    "live/border/src",
     "urdf/src",
     "urdf/macros/src",
     "models/src",
