@@ -171,8 +171,8 @@ impl<M: Mechanism> Film<M> {
         }
     }
 
-    /// Records a frame of what a [`Stepper`](holonom::Stepper) has reached, or of any other view: it
-    /// has no reactions.
+    /// Records a frame of what a [`Stepper`](holonom::Stepper) has reached, or of any other view:
+    /// it has no reactions.
     pub fn record_view<S: Real>(&mut self, view: &View<'_, S, M>) {
         self.take(view);
         let none = 6 * self.arrows.len();

@@ -25,8 +25,8 @@ where
     P: Solvable<Number = f64, Mechanism = M, Forces: Clone> + 'static,
     K: Steps<P> + Copy + 'static,
 {
-    /// Writes the page to a file, and makes its folder. The program is compiled once more for WebAssembly, in the profile
-    /// in which it runs, by the cargo that started it.
+    /// Writes the page to a file, and makes its folder. The program is compiled once more for
+    /// WebAssembly, in the profile in which it runs, by the cargo that started it.
     ///
     /// In the module itself it serves the mechanism to the page. So call it last, and once.
     ///

@@ -18,6 +18,7 @@ export function panel(module, { refused, restarted }) {
   const first = [...module.values];
   const waiting = new Map();
   const groups = new Map();
+  let dragged = null;
   const rows = module.sliders.map((slider, place) => {
     if (!groups.has(slider.group)) {
       const group = made("section", "group");
@@ -34,18 +35,22 @@ export function panel(module, { refused, restarted }) {
     row.append(name, number, unit, range);
     row.title = `${slider.name} from ${digits(slider.low)} to ${digits(slider.high)} ${slider.unit}`;
     groups.get(slider.group).append(row);
-    range.oninput = () => waiting.set(place, +range.value);
+    range.oninput = () => {
+      dragged = range;
+      waiting.set(place, +range.value);
+    };
     number.onchange = () => Number.isFinite(number.valueAsNumber) && waiting.set(place, number.valueAsNumber);
     // What was refused goes back when the slider is let go.
-    range.onchange = () => requestAnimationFrame(() => show());
+    range.onchange = () => requestAnimationFrame(() => show((dragged = null)));
     return { range, number };
   });
 
-  function show(moved = null) {
+  /** Shows the values that hold; of a slider that is in hand, `dragged`, the number alone. */
+  function show(dragged = null) {
     rows.forEach(({ range, number }, place) => {
       const value = module.values[place];
-      if (place !== moved) range.value = value;
-      if (document.activeElement !== number || place === moved) number.value = +value.toPrecision(4);
+      if (range !== dragged) range.value = value;
+      number.value = +value.toPrecision(4);
     });
   }
   /** Does what the reader asked for since the last picture. */
@@ -58,8 +63,8 @@ export function panel(module, { refused, restarted }) {
       } catch (error) {
         refused(error.message);
       }
-      show(place);
     }
+    if (waiting.size) show(dragged);
     waiting.clear();
   }
   function restart() {

@@ -1,7 +1,7 @@
 //! A four-bar with springs, whose lengths a reader moves while it runs:
 //!
 //! ```text
-//! cargo run --release -p holonom-live --example four_bar -- target/films/four-bar-live.html
+//! cargo run --release -p holonom-live --example four_bar_live -- target/films/four-bar-live.html
 //! ```
 
 mod linkage;

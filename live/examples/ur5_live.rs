@@ -2,7 +2,7 @@
 //! sliders:
 //!
 //! ```text
-//! cargo run --release -p holonom-live --example ur5 -- target/films/ur5-live.html
+//! cargo run --release -p holonom-live --example ur5_live -- target/films/ur5-live.html
 //! ```
 
 use holonom::prelude::*;
