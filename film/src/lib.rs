@@ -70,6 +70,8 @@
 //! | `S` `V` | save a picture, a video |
 //! | `D` | light or dark |
 //!
+//! The same page, with a module that `holonom-live` compiles, runs on under sliders.
+//!
 //! # Meshes
 //!
 //! With the feature `meshes`, bodies look like meshes. `Film::urdf_meshes` draws those of a URDF

@@ -4,6 +4,8 @@ use std::fs;
 use std::marker::PhantomData;
 use std::path::Path;
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use holonom::mechanism::{Located, Place};
 use holonom::{BodyHandle, JointHandle, Mechanism, Real, Sample, View, Warnings};
 
@@ -24,6 +26,8 @@ use crate::subject::Subject;
 const PAGE: &str = include_str!("page.html");
 /// Where the data goes.
 const PLACE: &str = "/*FILM*/";
+/// What the data is behind: a page that computes has its program before it.
+const DATA: &str = "<script type=\"application/json\" id=\"film\">";
 
 /// A film of a mechanism: see the crate's page.
 #[derive(Clone, Debug)]
@@ -151,10 +155,7 @@ impl<M: Mechanism> Film<M> {
 
     /// Records a frame: an observer may be this alone, `|sample| film.record(sample)`.
     pub fn record<S: Real>(&mut self, sample: &Sample<'_, S, M>) {
-        if self.times.is_empty() {
-            self.begin(sample);
-        }
-        self.frame(sample);
+        self.take(sample);
         for arrow in &self.arrows {
             let joint = JointHandle::<M, ()>::new(arrow.joint);
             let wrench = sample.reaction_on_place(joint, arrow.place);
@@ -168,6 +169,22 @@ impl<M: Mechanism> Film<M> {
             });
             self.loads.extend(load);
         }
+    }
+
+    /// Records a frame of what a [`Stepper`](holonom::Stepper) has reached, or of any other view:
+    /// it has no reactions.
+    pub fn record_view<S: Real>(&mut self, view: &View<'_, S, M>) {
+        self.take(view);
+        let none = 6 * self.arrows.len();
+        self.loads.resize(self.loads.len() + none, f32::NAN);
+    }
+
+    /// A frame but its reactions.
+    fn take<S: Real>(&mut self, view: &View<'_, S, M>) {
+        if self.times.is_empty() {
+            self.begin(view);
+        }
+        self.frame(view);
     }
 
     /// Time and poses.
@@ -263,6 +280,39 @@ impl<M: Mechanism> Film<M> {
     /// [`FilmError::Empty`] without a frame; [`FilmError::NotFinite`] where a position is not a
     /// number.
     pub fn html(&self) -> Result<String, FilmError> {
+        Ok(PAGE.replacen(PLACE, &self.data()?, 1))
+    }
+
+    /// The page with a WebAssembly module that goes on where the film ends, as `holonom-live` makes
+    /// it.
+    ///
+    /// # Errors
+    /// As [`Film::html`].
+    #[doc(hidden)]
+    pub fn html_with_module(&self, module: &[u8]) -> Result<String, FilmError> {
+        let program = STANDARD.encode(module);
+        let script = format!("<script type=\"text/plain\" id=\"live\">{program}</script>\n{DATA}");
+        let page = PAGE.replacen(DATA, &script, 1);
+        Ok(page.replacen(PLACE, &self.data()?, 1))
+    }
+
+    /// The largest extent of points and centres of mass in the first frame (m); 1 where all is in
+    /// one place, or there is no frame.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        if self.times.is_empty() {
+            return 1.0;
+        }
+        self.subject(&elements::<M>(), &[]).size()
+    }
+
+    /// What the page shows, as the viewer reads it.
+    ///
+    /// # Errors
+    /// As [`Film::html`].
+    #[doc(hidden)]
+    pub fn data(&self) -> Result<String, FilmError> {
         self.check()?;
         let (bodies, elements) = (bodies::<M>(), elements::<M>());
         let traces = self.traced();
@@ -313,7 +363,7 @@ impl<M: Mechanism> Film<M> {
         };
         let mut data = String::new();
         page.write(&mut data);
-        Ok(PAGE.replacen(PLACE, &data, 1))
+        Ok(data)
     }
 
     /// A moving picture for a README or a page of documentation: an SVG that loops without a

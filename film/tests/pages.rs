@@ -278,6 +278,45 @@ fn the_arrow_of_a_rod_begins_at_its_end() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// A view has the poses of a sample and no reactions, of which a frame then holds none.
+#[test]
+fn a_view_is_a_frame_without_reactions() -> Result<(), Box<dyn Error>> {
+    let rod = RodPendulum::default();
+    let [mut by_sample, mut by_view] = [(); 2].map(|()| Film::new().with_reactions());
+    rod.simulation(StandardLagrange, DormandPrince::default())
+        .run(0.0..=1.0, every(0.25), |sample| {
+            by_sample.record(sample);
+            by_view.record_view(sample);
+        })?;
+    let [of_sample, of_view] = [data(&by_sample.html()?), data(&by_view.html()?)];
+    for key in ["times", "poses", "markers", "arrows"] {
+        assert_eq!(of_sample[key], of_view[key], "{key}");
+    }
+    let [some, none] = [&of_sample, &of_view].map(|page| floats(&page["loads"]));
+    assert_eq!(some.len(), none.len());
+    assert!(some.iter().all(|x| x.is_finite()) && none.iter().all(|x| x.is_nan()));
+    Ok(())
+}
+
+/// The module of a page that computes is before its data, which stays what it is.
+#[test]
+fn a_module_is_in_the_page_beside_the_film() -> Result<(), Box<dyn Error>> {
+    let mut film = Film::new();
+    RodPendulum::default()
+        .simulation(StandardLagrange, DormandPrince::default())
+        .run(0.0..=0.1, every(0.1), |sample| film.record(sample))?;
+    let module: Vec<u8> = (0..=255).cycle().take(1000).collect();
+    let (page, film) = (film.html_with_module(&module)?, film.html()?);
+    let (_, behind) = page
+        .split_once("<script type=\"text/plain\" id=\"live\">")
+        .expect("a module");
+    let (found, _) = behind.split_once("</script>").expect("it ends");
+    assert_eq!(STANDARD.decode(found)?, module);
+    assert_eq!(data(&page), data(&film));
+    assert!(!film.contains("<script type=\"text/plain\""));
+    Ok(())
+}
+
 /// The picture is well formed, and everything in it moves through the same number of frames.
 #[test]
 fn a_picture_is_an_animated_drawing() -> Result<(), Box<dyn Error>> {

@@ -42,19 +42,21 @@ function chart(place, unit, lines) {
 }
 
 export function charts(place, seek, size) {
-  const { times } = film;
-  const [start, end] = [times[0], times[times.length - 1]];
-  /** What is shown of the run (s). */
-  let shown = [start, end];
+  const whole = () => [film.times[0], film.times[film.times.length - 1]];
+  /** What is zoomed to of the run (s). */
+  let zoomed = null;
   const at = (canvas, x) => {
+    const shown = zoomed ?? whole();
     const width = canvas.clientWidth - LEFT - RIGHT;
     return shown[0] + Math.min(1, Math.max(0, (x - LEFT) / width)) * (shown[1] - shown[0]);
   };
   function zoom(about, by) {
-    const frame = (end - start) / Math.max(1, times.length - 1);
+    const [start, end] = whole();
+    const shown = zoomed ?? [start, end];
+    const frame = (end - start) / Math.max(1, film.times.length - 1);
     const by1 = Math.max(by, (4 * frame) / (shown[1] - shown[0] || 1));
     const [from, to] = shown.map((edge) => about + by1 * (edge - about));
-    shown = to - from >= end - start ? [start, end] : [Math.max(start, from), Math.min(end, to)];
+    zoomed = to - from >= end - start ? null : [Math.max(start, from), Math.min(end, to)];
   }
   function listen({ canvas }) {
     const go = (event) => event.buttons && seek(at(canvas, event.offsetX));
@@ -63,7 +65,7 @@ export function charts(place, seek, size) {
       go(event);
     });
     canvas.addEventListener("pointermove", go);
-    canvas.addEventListener("dblclick", () => (shown = [start, end]));
+    canvas.addEventListener("dblclick", () => (zoomed = null));
     canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
       zoom(at(canvas, event.offsetX), 1.2 ** Math.sign(event.deltaY));
@@ -91,6 +93,8 @@ export function charts(place, seek, size) {
   add();
 
   function draw({ lines, canvas, unit }, time) {
+    const { times } = film;
+    const shown = zoomed ?? whole();
     const ratio = devicePixelRatio;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (canvas.width !== width * ratio || canvas.height !== height * ratio) {
@@ -171,5 +175,5 @@ export function charts(place, seek, size) {
       });
     }
   };
-  return { show, add };
+  return { show, add, unzoom: () => (zoomed = null) };
 }

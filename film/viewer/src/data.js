@@ -1,6 +1,6 @@
 // What a film holds: read from the page, with the numbers of all frames in flat arrays.
 
-const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+export const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
 const floats = (text) => new Float32Array(bytes(text));
 export const shorts = (text) => new Uint16Array(bytes(text));
 

@@ -5,16 +5,22 @@ import { charts, digits } from "./charts.js";
 import { film } from "./data.js";
 import { floor } from "./floor.js";
 import { icon } from "./icons.js";
+import { live } from "./live.js";
 import { picture, records, video } from "./save.js";
 import { selection } from "./select.js";
 import { colourOf } from "./shapes.js";
+import { panel } from "./sliders.js";
 import { stage } from "./stage.js";
 import { triad } from "./triad.js";
 import { views } from "./views.js";
 
 const id = (name) => document.getElementById(name);
-const [start, end] = [film.times[0], film.times[film.times.length - 1]];
-let time = start;
+// Those of what is shown: of a mechanism that runs they go on.
+const start = () => film.times[0];
+const end = () => film.times[film.times.length - 1];
+let time = start();
+/** The module of a page in which the mechanism runs, and its sliders. */
+let [running, sliders] = [null, null];
 let drawCharts;
 document.title = film.title;
 id("title").textContent = film.title;
@@ -65,17 +71,19 @@ let speed = natural();
 let previous = performance.now();
 /** Real time where a film lasts for seconds, else a speed at which it does. */
 function natural() {
-  const duration = end - start;
+  const duration = end() - start();
   if (duration >= 1 && duration <= 60) return 1;
   return 10 ** Math.round(Math.log10(Math.max(duration, 1e-12) / 8));
 }
+const decimals = end() - start() < 1 ? 4 : 2;
 const slider = id("slider");
 const seek = (to) => {
-  time = Math.min(end, Math.max(start, to));
+  time = Math.min(end(), Math.max(start(), to));
   play(false);
 };
 function play(on) {
-  if (on && time >= end) time = start;
+  if (on && running) time = end();
+  else if (on && time >= end()) time = start();
   playing = on;
   id("play").innerHTML = icon(on ? "pause" : "play");
   id("play").setAttribute("aria-label", on ? "Pause" : "Play");
@@ -90,7 +98,7 @@ for (const each of speeds) id("speed").add(new Option(`${+each.toPrecision(3)}×
 id("speed").onchange = (event) => (speed = +event.target.value);
 id("play").onclick = () => play(!playing);
 id("loop").onclick = () => id("loop").setAttribute("aria-pressed", (looping = !looping));
-slider.oninput = () => seek(start + slider.value * (end - start));
+slider.oninput = () => seek(start() + slider.value * (end() - start()));
 const along = (...at) => () => show.fit(new THREE.Vector3(...at));
 const buttons = {
   fit: () => show.fit(), iso: () => show.fit(show.corner()), x: along(1, 0, 0), y: along(0, 1, 0), z: along(0, 0, 1),
@@ -117,7 +125,7 @@ function record() {
     id("video").setAttribute("aria-pressed", false);
     return;
   }
-  time = start;
+  if (!running) time = start();
   onPaper();
   stopVideo = video(canvas);
   id("video").setAttribute("aria-pressed", true);
@@ -144,7 +152,8 @@ id("show-traces").hidden = film.traces.length === 0;
 id("show-forces").hidden = !film.elements.some((element) => element.type === "force");
 if (set.perMetre !== null) id("scale").textContent = `arrows: ${+digits(set.perMetre)} N to 1 m`;
 
-// What can be hidden.
+// What can be hidden, and what is.
+const hidden = new Map();
 function entry(kind, index, said, colour) {
   const item = document.createElement("button");
   item.className = "item";
@@ -158,9 +167,11 @@ function entry(kind, index, said, colour) {
     chosen.select({ kind, index });
   };
   item.onclick = () => {
-    const hidden = item.getAttribute("aria-pressed") === "true";
-    item.setAttribute("aria-pressed", !hidden);
-    set.hide(kind, index, hidden);
+    const isShown = item.getAttribute("aria-pressed") === "true";
+    item.setAttribute("aria-pressed", !isShown);
+    if (isShown) hidden.set(item, [kind, index]);
+    else hidden.delete(item);
+    set.hide(kind, index, isShown);
   };
   id("items").append(item);
 }
@@ -188,7 +199,7 @@ for (const warning of film.warnings) {
   const mark = document.createElement("button");
   mark.className = "mark";
   mark.title = warning.text;
-  mark.style.left = `${(100 * (warning.time - start)) / (end - start || 1)}%`;
+  mark.style.left = `${(100 * (warning.time - start())) / (end() - start() || 1)}%`;
   mark.onclick = () => seek(warning.time);
   id("marks").append(mark);
 }
@@ -215,18 +226,18 @@ id("theme").onclick = () => {
 const chosen = selection(canvas, scene, set, () => show.camera, (lines) => graphs.add("N", lines), { follow: show.follow });
 
 // Keys.
-const frame = () => (end - start) / Math.max(1, film.times.length - 1);
+const frame = () => (end() - start()) / Math.max(1, film.times.length - 1);
 const click = (name) => () => id(name).click();
 const keys = {
   " ": () => play(!playing), arrowleft: () => seek(time - frame()), arrowright: () => seek(time + frame()),
-  home: () => seek(start), end: () => seek(end), escape: () => chosen.select(null),
+  home: () => seek(start()), end: () => seek(end()), escape: () => chosen.select(null),
   l: click("loop"), f: click("fit"), i: click("iso"), x: click("x"), y: click("y"), z: click("z"), o: click("flat"),
   s: click("png"), v: click("video"), c: () => chosen.selected?.kind === "body" && id("follow").click(),
   r: click("show-reactions"), t: click("show-traces"), p: click("show-points"), a: click("show-frames"),
-  g: click("show-ghost"), h: click("list"), d: click("theme"),
+  g: click("show-ghost"), h: click("list"), d: click("theme"), n: () => running && id("restart").click(),
 };
 addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT" || event.target.type === "number") return;
   // Caps Lock makes capitals of letters.
   const act = keys[event.key.toLowerCase()];
   if (!act) return;
@@ -263,21 +274,22 @@ function draw(now) {
   // The first picture may be of a time before the script's.
   const passed = Math.min(0.1, Math.max(0, (now - previous) / 1000));
   previous = now;
-  if (playing) {
+  if (running) go(passed * speed);
+  else if (playing) {
     time += passed * speed;
-    if (time > end) {
+    if (time > end()) {
       if (stopVideo) {
         record();
         play(false);
       }
-      time = looping && playing ? start + ((time - start) % (end - start || 1)) : end;
-      if (time === end) play(false);
+      time = looping && playing ? start() + ((time - start()) % (end() - start() || 1)) : end();
+      if (time === end()) play(false);
     }
   }
   set.show(time);
   show.update();
-  slider.value = (time - start) / (end - start || 1);
-  id("time").textContent = `${time.toFixed(end - start < 1 ? 4 : 2)} s`;
+  slider.value = (time - start()) / (end() - start() || 1);
+  id("time").textContent = `${time.toFixed(decimals)} s`;
   drawCharts(time);
   chosen.read(time);
   render();
@@ -289,3 +301,91 @@ function render() {
 draw(previous);
 if (asked) document.body.dataset.drawn = drawn().toFixed(4);
 renderer.setAnimationLoop(draw);
+
+// A mechanism that runs: what was recorded is shown until its module has started.
+function go(wall) {
+  const was = running.time;
+  sliders.apply();
+  if (playing) {
+    try {
+      time = running.advance(wall);
+    } catch (error) {
+      tell("fault", `${running.time.toPrecision(6)} s: ${error.message}`);
+      time = end();
+      play(false);
+    }
+  } else if (running.time !== was || time > end()) time = end();
+  tell("error", running.isWrong
+    ? `Steps of ${running.step} s are too long here: after ten seconds positions are off by about ${digits(100 * running.error)} % of the mechanism.`
+    : null);
+  tell("pace", playing && running.pace < 0.9 ? `The run takes ${digits(1 / running.pace)} times as long as the speed that is asked for.` : null);
+}
+/** Says something of the run, or takes it away. */
+function tell(what, text) {
+  let line = id(`told-${what}`);
+  if (text === null) return void line?.remove();
+  if (!line) {
+    line = document.createElement("button");
+    Object.assign(line, { id: `told-${what}`, className: "warning" });
+    line.setAttribute("role", "alert");
+    line.setAttribute("aria-expanded", what !== "pace");
+    line.onclick = () => line.setAttribute("aria-expanded", line.getAttribute("aria-expanded") === "false");
+    id("warnings").append(line);
+  }
+  line.title = text;
+  line.textContent = `⚠ ${text}`;
+}
+/** Draws the mechanism anew: a parameter has changed its shape. */
+function rebuild() {
+  const { layers } = set;
+  set.remove();
+  const anew = stage(scene, set);
+  for (const [name, layer] of Object.entries(layers)) anew.layers[name].visible = layer.visible;
+  Object.assign(set, anew);
+  for (const [kind, index] of hidden.values()) set.hide(kind, index, true);
+  set.light(chosen.selected);
+  if (id("follow").getAttribute("aria-pressed") === "true") show.follow(set.bodies[chosen.selected.index]);
+}
+async function run() {
+  const module = await live({ changed: rebuild, added: (known, gone) => set.retrace(known, gone) });
+  if (!module) return;
+  running = module;
+  const restarted = () => {
+    tell("fault", null);
+    graphs.unzoom();
+    if (playing) play(true);
+    else time = end();
+  };
+  sliders = panel(module, { restarted, refused: (text) => {
+    id("refused").hidden = text === null;
+    id("refused").textContent = text ?? "";
+    if (text === null) tell("fault", null);
+  } });
+  id("loop").hidden = true;
+  id("marks").hidden = true;
+  id("play").title = "Run or pause (space)";
+  time = end();
+  // For scripts around the page.
+  globalThis.holonom = {
+    get time() { return module.time; },
+    sliders: module.sliders,
+    get values() { return module.values; },
+    set(name, value) {
+      const place = module.sliders.findIndex((each) => each.name === name);
+      if (place < 0) throw new Error(`no slider is called ${name}`);
+      module.set(place, value);
+      sliders.show();
+    },
+    restart: () => id("restart").click(),
+    steps(count) {
+      module.steps(count);
+      time = end();
+    },
+    poses: () => module.poses(),
+  };
+  document.body.dataset.live = "runs";
+}
+run().catch((error) => {
+  tell("fault", `The mechanism does not run here; the film shows how it began. ${error.message}`);
+  document.body.dataset.live = error.message;
+});

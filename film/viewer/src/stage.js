@@ -32,10 +32,11 @@ function joinPlanes(ways, size) {
   });
 }
 
-export function stage(scene) {
+/** What is on the stage. `former` is a stage of the same mechanism whose sizes are kept. */
+export function stage(scene, former = null) {
   const places = cloud();
   const box = new THREE.Box3().setFromPoints(places);
-  const size = sizeAtStart() || box.getSize(new THREE.Vector3()).length() || 1;
+  const size = former?.size ?? (sizeAtStart() || box.getSize(new THREE.Vector3()).length() || 1);
   const down = vector(film.gravity);
   const isFlat = box.max.z - box.min.z < 0.02 * size;
   const free = isFlat ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(0, 0, 1);
@@ -84,11 +85,11 @@ export function stage(scene) {
     if (body === null) layers.points.add(holder);
     else ride(layers.points, body, holder);
   }
-  const ways = film.elements.map(({ kind }, index) => {
+  const ways = former?.ways ?? film.elements.map(({ kind }, index) => {
     const isPlane = PLANES.test(kind);
     return isPlane || LINES.test(kind) ? wayOf(index, isPlane) : undefined;
   });
-  joinPlanes(ways, size);
+  if (!former) joinPlanes(ways, size);
   const elements = film.elements.map((element, index) => {
     const parts = [];
     const layer = element.type === "joint" ? layers.joints : layers.forces;
@@ -149,20 +150,34 @@ export function stage(scene) {
   });
 
   // Traces: the whole way faint, what was passed strong.
-  const traces = film.traces.map((trace, k) => {
-    const way = new Float32Array(3 * film.times.length);
-    const at = new THREE.Vector3();
-    film.times.forEach((_, frame) => {
-      const [origin, turn] = poseIn(frame, trace.body);
-      at.set(...trace.at).applyQuaternion(turn).add(origin).toArray(way, 3 * frame);
-    });
+  const traces = film.traces.map((trace) => {
     const colour = shapes.colourOf(trace.body);
-    const [all, passed] = [[1.5, 0.3], [2.5, 1]].map(([width, opacity]) => line(way, colour, width, opacity));
+    const [all, passed] = [[1.5, 0.3], [2.5, 1]].map(([width, opacity]) => line(colour, width, opacity));
     const dot = new THREE.Mesh(new THREE.SphereGeometry(0.012 * size, 16, 12), new THREE.MeshBasicMaterial({ color: colour }));
     dot.userData.name = trace.name;
     layers.traces.add(all, passed, dot);
-    return { way, passed, dot, k };
+    return { trace, way: null, all, passed, dot };
   });
+  /** Draws traces through the frames that there are; `known` of them are as they were, `gone` before them are not. */
+  function retrace(known = 0, gone = 0) {
+    const count = film.times.length;
+    const at = new THREE.Vector3();
+    for (const each of traces) {
+      const before = each.way;
+      each.way = new Float32Array(3 * count);
+      if (known) each.way.set(before.subarray(3 * gone, 3 * (gone + known)));
+      for (let frame = known; frame < count; frame++) {
+        const [origin, turn] = poseIn(frame, each.trace.body);
+        at.set(...each.trace.at).applyQuaternion(turn).add(origin).toArray(each.way, 3 * frame);
+      }
+      for (const drawn of [each.all, each.passed]) {
+        drawn.visible = count > 1;
+        drawn.geometry.dispose();
+        if (count > 1) drawn.geometry = new LineGeometry().setPositions(each.way);
+      }
+    }
+  }
+  retrace();
 
   const [a, b] = [new THREE.Quaternion(), new THREE.Quaternion()];
   function place(object, body, { low, next, part }, poses = film.poses) {
@@ -238,7 +253,14 @@ export function stage(scene) {
     for (const object of all)
       object.traverse(({ material }) => material?.emissive?.setHex(lit.includes(object) ? 0x553311 : 0));
   };
-  return { box, places, size, up, normal: normal(size), bodies, layers, show, hide, light, perMetre: largest > 0 ? perMetre : null };
+  /** Takes everything away. */
+  function remove() {
+    for (const group of [ground, ...Object.values(layers)]) {
+      scene.remove(group);
+      group.traverse((object) => object.geometry?.dispose());
+    }
+  }
+  return { ways, retrace, remove, box, places, size, up, normal: normal(size), bodies, layers, show, hide, light, perMetre: largest > 0 ? perMetre : null };
 }
 
 /** A body of another run: what is seen through. */
@@ -253,11 +275,10 @@ function ghost(body, index) {
   return body;
 }
 
-/** A line through places, so many pixels wide; nothing to hover over. */
-function line(places, color, linewidth, opacity) {
-  const geometry = new LineGeometry().setPositions(places);
+/** A line so many pixels wide, through no places yet; nothing to hover over. */
+function line(color, linewidth, opacity) {
   const material = new LineMaterial({ color, linewidth, opacity, transparent: true, depthWrite: opacity === 1 });
-  const made = new Line2(geometry, material);
+  const made = new Line2(new LineGeometry(), material);
   // What is strong goes over what is faint.
   made.renderOrder = opacity;
   made.raycast = () => {};

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The sources that are held to it.
-const FOLDERS: [&str; 10] = [
+const FOLDERS: [&str; 12] = [
     "macros/src",
     "macros/engine/src",
     "runtime/src",
@@ -15,6 +15,8 @@ const FOLDERS: [&str; 10] = [
     "export/src",
     "fmu/src",
     "python/src",
+    "live/src",
+    "live/border/src",
     "urdf/src",
     "urdf/macros/src",
     "models/src",
