@@ -144,6 +144,7 @@ macro_rules! __stub_joints {
             type JointFactors<__S: $crate::Scalar> = [__S; 0];
             type JointVelocities<__S: $crate::Scalar> = [__S; 0];
             type Derivatives<__S: $crate::Scalar> = [__S; 0];
+            type MotionsAlong<__S: $crate::Scalar> = [__S; 0];
             type Adjoint<__S: $crate::Scalar> = [__S; 0];
             type AdjointWeights<__S: $crate::Scalar> = [__S; 0];
             const JOINT_REPORT: $crate::mechanism::JointReport = $crate::mechanism::JointReport {
