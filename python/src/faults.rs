@@ -107,48 +107,64 @@ pub(crate) fn sentences(warnings: &Warnings) -> Vec<String> {
     warnings.into_iter().map(|one| one.to_string()).collect()
 }
 
-/// The joint that a fault is about; the body or field where there is no joint.
+/// The joint that a fault is about; the field of a parameter where there is no joint.
 pub(crate) fn joint(fault: &Fault) -> Option<&'static str> {
-    match *fault {
-        Fault::Step(fault) => of_step(&fault),
-        Fault::Start(fault) => match fault {
-            StartFault::InteractionSetting { joint, .. }
-            | StartFault::MisplacedSetting { joint, .. }
-            | StartFault::LimitsLeftOut { joint, .. }
-            | StartFault::Inconsistent { joint, .. }
-            | StartFault::DirectionOpens { joint, .. } => Some(joint),
-            _ => None,
-        },
-        Fault::Mode(fault) => match fault {
-            ModeFault::NoMode { joint, .. }
-            | ModeFault::Endless { joint, .. }
-            | ModeFault::DrivenAgainst { joint, .. }
-            | ModeFault::NoUniqueFriction { joint, .. }
-            | ModeFault::CapacityFactor { joint, .. }
-            | ModeFault::LoadNotUnique { joint, .. } => Some(joint),
-            _ => None,
-        },
-        Fault::Assembly(fault) => match fault {
-            AssemblyFault::CarriesNothing { joint, .. }
-            | AssemblyFault::NotFree { joint, .. }
-            | AssemblyFault::WrongSide { joint, .. }
-            | AssemblyFault::BeyondLimit { joint, .. } => Some(joint),
-            AssemblyFault::WayEnds { joint, .. } => joint,
-            _ => None,
-        },
-        Fault::Reading(fault) => match fault {
-            ReadingFault::NoSuchPlace { joint, .. }
-            | ReadingFault::NoEffort { joint, .. }
-            | ReadingFault::NoSuchLimits { joint, .. } => Some(joint),
-            _ => None,
-        },
-        Fault::Analysis(fault) => of_analysis(&fault),
+    match fault {
+        Fault::Step(fault) => of_step(fault),
+        Fault::Start(fault) => of_start(fault),
+        Fault::Mode(fault) => of_mode(fault),
+        Fault::Assembly(fault) => of_assembly(fault),
+        Fault::Reading(fault) => of_reading(fault),
+        Fault::Analysis(fault) => of_analysis(fault),
         Fault::Parameter(error) => match error.fault {
             ParameterFault::NotAssembled { joint, .. }
             | ParameterFault::Dependent { joint, .. }
             | ParameterFault::Independent { joint, .. } => Some(joint),
             _ => Some(error.field),
         },
+        _ => None,
+    }
+}
+
+fn of_start(fault: &StartFault) -> Option<&'static str> {
+    match *fault {
+        StartFault::InteractionSetting { joint, .. }
+        | StartFault::MisplacedSetting { joint, .. }
+        | StartFault::LimitsLeftOut { joint, .. }
+        | StartFault::Inconsistent { joint, .. }
+        | StartFault::DirectionOpens { joint, .. } => Some(joint),
+        _ => None,
+    }
+}
+
+fn of_mode(fault: &ModeFault) -> Option<&'static str> {
+    match *fault {
+        ModeFault::NoMode { joint, .. }
+        | ModeFault::Endless { joint, .. }
+        | ModeFault::DrivenAgainst { joint, .. }
+        | ModeFault::NoUniqueFriction { joint, .. }
+        | ModeFault::CapacityFactor { joint, .. }
+        | ModeFault::LoadNotUnique { joint, .. } => Some(joint),
+        _ => None,
+    }
+}
+
+fn of_assembly(fault: &AssemblyFault) -> Option<&'static str> {
+    match *fault {
+        AssemblyFault::CarriesNothing { joint, .. }
+        | AssemblyFault::NotFree { joint, .. }
+        | AssemblyFault::WrongSide { joint, .. }
+        | AssemblyFault::BeyondLimit { joint, .. } => Some(joint),
+        AssemblyFault::WayEnds { joint, .. } => joint,
+        _ => None,
+    }
+}
+
+fn of_reading(fault: &ReadingFault) -> Option<&'static str> {
+    match *fault {
+        ReadingFault::NoSuchPlace { joint, .. }
+        | ReadingFault::NoEffort { joint, .. }
+        | ReadingFault::NoSuchLimits { joint, .. } => Some(joint),
         _ => None,
     }
 }

@@ -102,7 +102,7 @@ fn steps(interval: (f64, f64), step: f64) -> PyResult<usize> {
     }
     let count = (to - from) / step;
     let whole = count.round();
-    if !(whole >= 1.0 && whole < 1e9 && (count - whole).abs() < 1e-6 * whole.max(1.0)) {
+    if !((1.0..1e9).contains(&whole) && (count - whole).abs() < 1e-6 * whole) {
         return Err(wrong(format!(
             "from {from} s to {to} s there are {count} steps of {step} s: their number must be whole, and at least 1"
         )));

@@ -121,7 +121,8 @@ pub fn by_joints<E: Exposed>(
                 (false, false) => view.displacement(length(at)),
                 (false, true) => view.displacement_rate(length(at)),
             };
-            if !((found - wanted).abs() <= OFF * wanted.abs().max(1.0)) {
+            let off = (found - wanted).abs();
+            if off.is_nan() || off > OFF * wanted.abs().max(1.0) {
                 let joint = joints[at].name;
                 return Err(AnalysisFault::NotIndependent { joint }.into());
             }
