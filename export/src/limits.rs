@@ -57,7 +57,7 @@ pub(crate) fn limits_of<M: Mechanism>(parameters: &M::Parameters<f64>) -> Vec<Li
     let constants = M::prepare(parameters);
     let bodies = M::initial_state(&constants);
     let named = |limits: &JointLimits<f64>| Limited {
-        is_up_to_turns: of_rust::limited_joint::<_, M>(&constants, (0.0, &bodies), limits)
+        is_up_to_turns: of_rust::limited_joint::<_, M>(&constants, 0.0, &bodies, limits)
             .is_up_to_turns,
         limits: *limits,
         name: M::REPORT
@@ -185,7 +185,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             |export, constants, time, bodies| {
                 let limits = export.limits();
                 let gaps = limits.iter().flat_map(|limits| {
-                    let joint = of_rust::limited_joint::<_, M>(constants, (time, bodies), limits);
+                    let joint = of_rust::limited_joint::<_, M>(constants, time, bodies, limits);
                     let [lower, upper] = joint.gaps(limits);
                     [lower, upper, joint.rate]
                 });
@@ -302,13 +302,16 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     pub(crate) fn step_guard(
         &self,
         absolute: &M::Constants<Traced<P>>,
-        [before, after]: [(Traced<P>, &M::State<Traced<P>>); 2],
+        times: [Traced<P>; 2],
+        bodies: [&M::State<Traced<P>>; 2],
         step: Traced<P>,
     ) -> Option<Traced<P>> {
         let all = self.limits();
         let guards = all.iter().map(|limits| {
-            let at = |at| of_rust::limited_joint::<_, M>(absolute, at, limits);
-            let [before, after]: [LimitedJoint<Traced<P>>; 2] = [at(before), at(after)];
+            let at = |end: usize| -> LimitedJoint<Traced<P>> {
+                of_rust::limited_joint::<_, M>(absolute, times[end], bodies[end], limits)
+            };
+            let [before, after] = [at(0), at(1)];
             after.heeds(&before, step, limits)
         });
         guards.reduce(|one, other| one.min(other))

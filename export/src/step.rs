@@ -43,7 +43,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             all.extend(numbers(&next).into_iter().map(Traced::place));
             let guard = (!self.limited.is_empty()).then(|| {
                 let [before, after] = [&state, &next].map(|of| C::bodies_by_selection(&own, of));
-                self.step_guard(&absolute, [(time, &before), (end, &after)], dt)
+                self.step_guard(&absolute, [time, end], [&before, &after], dt)
             });
             let guard = guard.flatten().map(Traced::place);
             Ok((system.pivot.map(Traced::place), guard, all))

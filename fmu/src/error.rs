@@ -10,8 +10,8 @@ use holonom_export::ExportError;
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum FmuError {
-    /// What cannot be written in C: limits that are a turn or more apart, formulations that iterate,
-    /// readings that compare.
+    /// What cannot be written in C: limits that are a turn or more apart, formulations that
+    /// iterate, readings that compare.
     Export(ExportError),
     /// A mechanism without anything that moves.
     NoStates,

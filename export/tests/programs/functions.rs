@@ -95,8 +95,8 @@ fn joints_are_what_the_report_says_and_can_be_put_back() {
     }
 }
 
-/// Two links on parallel axes, with springs that count the turns of one joint and of both, and a nut
-/// on a screw.
+/// Two links on parallel axes, with springs that count the turns of one joint and of both, and a
+/// nut on a screw.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 struct Wound {

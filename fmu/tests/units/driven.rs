@@ -50,7 +50,8 @@ fn driver(unit: &Unit, name: &str, (file, text): (&str, &str)) -> PathBuf {
     folder.join("driver")
 }
 
-/// What a driver writes that is given the token of a unit and further arguments, and what is logged.
+/// What a driver writes that is given the token of a unit and further arguments, and what is
+/// logged.
 pub(crate) fn ran(
     unit: &Unit,
     name: &str,

@@ -60,7 +60,7 @@ pub fn projected<S: Scalar, M: Mechanism, C: TracedCoordinates<M>>(
         let mut lower = *violation;
         lower.as_mut_slice().iter_mut().for_each(|row| *row = -*row);
         let prepared = (at.own, at.coefficients);
-        let (step, pivot) = C::moved_by(prepared, (at.time, state), &Array::zeros(), &lower);
+        let (step, pivot) = C::moved_by(prepared, at.time, state, &Array::zeros(), &lower);
         least = least.min(pivot);
         step
     };

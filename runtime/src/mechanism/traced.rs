@@ -61,7 +61,8 @@ pub trait TracedCoordinates<M: Mechanism>: Coordinates<M> {
     #[doc(hidden)]
     fn moved_by<S: Scalar>(
         prepared: (&Self::Constants<S>, &Self::Coefficients<S>),
-        at: (S, &Self::State<S>),
+        time: S,
+        state: &Self::State<S>,
         loads: &M::Velocities<S>,
         lower: &Self::Multipliers<S>,
     ) -> (Self::Velocities<S>, S);
@@ -127,7 +128,8 @@ impl<M: Mechanism> TracedCoordinates<M> for Absolute<Normalised> {
 
     fn moved_by<S: Scalar>(
         (constants, coefficients): (&M::Constants<S>, &M::Coefficients<S>),
-        (time, state): (S, &M::State<S>),
+        time: S,
+        state: &M::State<S>,
         loads: &M::Velocities<S>,
         lower: &M::Multipliers<S>,
     ) -> (M::Velocities<S>, S) {
@@ -180,7 +182,8 @@ impl<M: JointCoordinates> TracedCoordinates<M> for Relative {
 
     fn moved_by<S: Scalar>(
         (constants, coefficients): (&M::JointConstants<S>, &M::JointCoefficients<S>),
-        (time, state): (S, &M::JointState<S>),
+        time: S,
+        state: &M::JointState<S>,
         loads: &M::Velocities<S>,
         lower: &M::ClosingMultipliers<S>,
     ) -> (M::JointVelocities<S>, S) {

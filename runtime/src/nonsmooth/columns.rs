@@ -19,8 +19,9 @@ pub struct Setting<'a, S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<
     pub(crate) formulation: &'a F,
 }
 
-/// The part of its compliance without constraints below which a quantity has no freedom.
-const NO_FREEDOM: f64 = 1e3;
+/// The part of its compliance without constraints below which a quantity has no freedom, in
+/// `EPSILON`.
+pub(super) const NO_FREEDOM: f64 = 1e3;
 
 /// The numbers of a state that moves.
 type Moving<S> = Forward<S, 1>;

@@ -9,13 +9,10 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::JointLimits;
 use crate::mechanism::traced::{AtTime, TracedCoordinates};
 use crate::mechanism::turns;
+use crate::nonsmooth::columns::NO_FREEDOM;
 use crate::nonsmooth::quantity::{JointReading, Quantity};
 use crate::nonsmooth::scene::Scene;
 use crate::state::vector::{Array, MovingState};
-
-/// The part of its compliance without constraints below which a quantity has no freedom, in
-/// `EPSILON` of `f64` or of `f32`.
-const NO_FREEDOM: f64 = 1e3;
 
 /// A joint with limits in a state.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +29,8 @@ pub struct LimitedJoint<S> {
 /// How a joint with limits is and moves.
 pub fn limited_joint<S: Scalar, M: Mechanism>(
     constants: &M::Constants<S>,
-    (time, bodies): (S, &M::State<S>),
+    time: S,
+    bodies: &M::State<S>,
     limits: &JointLimits<S>,
 ) -> LimitedJoint<S> {
     if !limits.is_angle {
@@ -101,7 +99,7 @@ pub fn impact<S: Scalar, M: Mechanism, C: TracedCoordinates<M>>(
     let mut least = one;
     for limits in limits {
         let bodies = C::bodies_by_selection(at.own, state);
-        let joint = limited_joint::<S, M>(at.absolute, (at.time, &bodies), limits);
+        let joint = limited_joint::<S, M>(at.absolute, at.time, &bodies, limits);
         let [above, below] = joint.gaps(limits);
         let inward = above.select(below, joint.rate, -joint.rate);
         // Negative where it is struck.
@@ -124,8 +122,8 @@ pub fn impact<S: Scalar, M: Mechanism, C: TracedCoordinates<M>>(
     least
 }
 
-/// Changes the rate of a limited joint by an impulse along it, with the constraints kept. Returns the
-/// least relative pivot of the system, and a number that is positive where the joint can move.
+/// Changes the rate of a limited joint by an impulse along it, with the constraints kept. Returns
+/// the least relative pivot of the system, and a number that is positive where the joint can move.
 fn struck<S: Scalar, M: Mechanism, C: TracedCoordinates<M>>(
     at: &AtTime<'_, S, M, C>,
     state: &mut C::State<S>,
@@ -146,7 +144,7 @@ fn struck<S: Scalar, M: Mechanism, C: TracedCoordinates<M>>(
     let mut loads = M::Velocities::<S>::zeros();
     quantity.add_effort(&scene, S::one(), &mut loads);
     let prepared = (at.own, at.coefficients);
-    let (column, pivot) = C::moved_by(prepared, (at.time, state), &loads, &Array::zeros());
+    let (column, pivot) = C::moved_by(prepared, at.time, state, &loads, &Array::zeros());
     let rate_at = |velocities: &C::Velocities<S>| {
         let mut moving = *state;
         let places = moving.rates_slice_mut().iter_mut();
