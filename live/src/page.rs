@@ -13,8 +13,8 @@ use crate::module;
 use crate::session::Session;
 use crate::settings::Live;
 
-/// Frames of the film a second.
-const FRAMES: f64 = 30.0;
+/// Frames of the film.
+const FRAMES: f64 = 120.0;
 
 /// Whether this program has made its page.
 static MADE: AtomicBool = AtomicBool::new(false);
@@ -99,9 +99,9 @@ where
     /// The film of the first seconds. A fault ends it, and is its warning.
     fn film(mut self) -> Result<holonom_film::Film<M>, LiveError> {
         let mut film = self.drawn();
-        let steps = (1.0 / (FRAMES * self.step())).ceil().max(1.0);
-        let frames = self.preview() / (steps * self.step());
-        for _ in 0..frames.clamp(0.0, 1e4) as usize {
+        let all = (self.preview() / self.step()).max(0.0);
+        let steps = (all / FRAMES).ceil().max(1.0);
+        for _ in 0..(all / steps) as usize {
             if self.advance(steps as usize).is_err() {
                 break;
             }

@@ -20,6 +20,7 @@ const PART: f64 = 0.05;
 const OFF: f64 = 1e-6;
 /// Parts of a move, at most.
 const MOST: f64 = 100.0;
+
 /// A mechanism that runs under sliders.
 pub struct Session<M: Mechanism, P: Solvable<Number = f64, Mechanism = M>, K> {
     live: Live<M, P, K>,
@@ -126,7 +127,9 @@ where
         let largest = (0..M::REPORT.bodies.len()).map(|body| {
             let body = BodyHandle::<M>::new(body);
             let [a, b] = [&one, &other].map(|bodies| M::pose::<f64>(bodies, body));
-            let turned = (a.orientation.coords - b.orientation.coords).norm();
+            // Of the two quaternions of an orientation, the nearer one.
+            let [p, q] = [a, b].map(|pose| pose.orientation.coords);
+            let turned = (p - q).norm().min((p + q).norm());
             (a.position - b.position).norm() + 2.0 * turned * self.watch.size()
         });
         self.watch.add(largest.fold(0.0, f64::max), self.live.step);

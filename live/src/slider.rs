@@ -139,10 +139,15 @@ fn place<M: Mechanism>(
 ) -> Result<Option<&'static ValueInfo>, LiveError> {
     let before = numbers(mechanism)?;
     let value = *field(mechanism);
-    *field(mechanism) = value + NUDGE * if value == 0.0 { 1.0 } else { value };
-    let after = numbers(mechanism);
-    *field(mechanism) = value;
-    let after = after?;
+    let by = NUDGE * if value == 0.0 { 1.0 } else { value };
+    let mut nudged = |by: f64| {
+        *field(mechanism) = value + by;
+        let after = numbers(mechanism);
+        *field(mechanism) = value;
+        after
+    };
+    // A number at the edge of what is accepted is moved the other way.
+    let after = nudged(by).or_else(|_| nudged(-by))?;
     let mut changed = before.iter().zip(&after).map(|(one, other)| one != other);
     let Some(place) = changed.position(|changed| changed) else {
         return Ok(None);
