@@ -86,7 +86,7 @@ pub enum StartFault {
         by: Unheeding,
     },
     /// Derivatives of a run were asked for, and a law switches: they jump where it does, which no
-    /// run of derivatives takes into account.
+    /// run of derivatives takes into account. A gradient by the adjoint is refused where it jumps.
     SwitchLeftOut {
         /// The field of the force or state.
         law: &'static str,

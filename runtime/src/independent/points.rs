@@ -91,6 +91,27 @@ pub(super) fn columns<M: HasJacobian, const N: usize, S: Scalar>(
     p: &[S; 3],
 ) -> [[S; 6]; N] {
     let mut columns = [[S::zero(); 6]; N];
+    each_rate::<M, S>(axes, body, p, |rate, velocity, axis| {
+        for (column, of_chosen) in columns.iter_mut().zip(&partition.columns) {
+            let share = at(of_chosen.as_slice(), rate);
+            let [vx, vy, vz] = times(&velocity, share);
+            let [wx, wy, wz] = times(&axis, share);
+            for (entry, part) in column.iter_mut().zip([vx, vy, vz, wx, wy, wz]) {
+                *entry = *entry + part;
+            }
+        }
+    });
+    columns
+}
+
+/// Calls with each rate that moves a body, and with what a unit of it gives the body at a point (m,
+/// global): a velocity, and an angular velocity.
+pub(super) fn each_rate<M: HasJacobian, S: Scalar>(
+    axes: &[S],
+    body: usize,
+    p: &[S; 3],
+    mut then: impl FnMut(usize, [S; 3], [S; 3]),
+) {
     let is_particle = M::REPORT
         .bodies
         .get(body)
@@ -102,16 +123,8 @@ pub(super) fn columns<M: HasJacobian, const N: usize, S: Scalar>(
         if ball.is_some() || is_particle {
             axis = [S::zero(); 3];
         }
-        for (column, of_chosen) in columns.iter_mut().zip(&partition.columns) {
-            let share = at(of_chosen.as_slice(), rate);
-            let [vx, vy, vz] = times(&velocity, share);
-            let [wx, wy, wz] = times(&axis, share);
-            for (entry, part) in column.iter_mut().zip([vx, vy, vz, wx, wy, wz]) {
-                *entry = *entry + part;
-            }
-        }
+        then(rate, velocity, axis);
     }
-    columns
 }
 
 impl<M: JointRates, const N: usize, S: Scalar> Equations<M, N, S> {

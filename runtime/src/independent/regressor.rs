@@ -4,9 +4,10 @@ use nalgebra::{SMatrix, SVector};
 
 use super::IndependentCoordinates;
 use super::determined::Needs;
+use super::elimination::at;
 use super::equations::{finite, finite_matrix};
-use super::partition::put_velocities;
-use super::points::{columns, moved};
+use super::partition::{Partition, put_velocities};
+use super::points::{each_rate, moved};
 use crate::error::Fault;
 use crate::forward::Forward;
 use crate::math::quaternion::{rotate, rotate_back};
@@ -143,19 +144,15 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let gravity = self.gravity_field(state);
         let mut blocks = [SMatrix::from_element(S::zero()); B];
         each_body::<_, M>(motions.as_slice(), |number, _, motion| {
-            let places = blocks.iter_mut().zip(&bodies);
-            for (block, _) in places.filter(|(_, body)| body.index() == number) {
-                let body = Twisting::of(&motion, M::user_axes(number).map(S::constant));
-                let jacobian = columns(&partition, axes.as_slice(), number, &body.position);
-                let rows = jacobian.map(|[vx, vy, vz, wx, wy, wz]| {
-                    let velocity = body.along_axes(&[vx, vy, vz]);
-                    (velocity, body.along_axes(&[wx, wy, wz]))
-                });
-                let wrenches = body.wrenches(&gravity);
-                *block = SMatrix::from_fn(|row, column| {
-                    let ((v, w), (force, moment)) = (rows[row], wrenches[column]);
-                    dot(&v, &force) + dot(&w, &moment)
-                });
+            let mut places = blocks.iter_mut().zip(&bodies);
+            let Some((first, _)) = places.find(|(_, body)| body.index() == number) else {
+                return;
+            };
+            let body = Twisting::of(&motion, M::user_axes(number).map(S::constant));
+            *first = self.block(&partition, (axes.as_slice(), &gravity), number, &body);
+            let block = *first;
+            for (place, _) in places.filter(|(_, body)| body.index() == number) {
+                *place = block;
             }
         });
         for block in blocks {
@@ -164,9 +161,52 @@ impl<M: HasJacobian, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         Ok(blocks)
     }
 
+    /// The block of a body: row by row what does work on a rate, and so on the chosen ones.
+    fn block(
+        &self,
+        partition: &Partition<M, N, S>,
+        (axes, gravity): (&[S], &[S; 3]),
+        number: usize,
+        body: &Twisting<S>,
+    ) -> SMatrix<S, N, 10> {
+        let wrenches = body.wrenches(gravity);
+        let mut block = SMatrix::<S, N, 10>::from_element(S::zero());
+        each_rate::<M, S>(axes, number, &body.position, |rate, velocity, axis| {
+            let efforts = wrenches.efforts(&body.along_axes(&velocity), &body.along_axes(&axis));
+            if M::JOINT_REPORT.closing.is_empty() {
+                // All rates are chosen.
+                let chosen = self
+                    .equations
+                    .places
+                    .iter()
+                    .position(|&place| place == rate);
+                let mut row = block.row_iter_mut().nth(chosen.unwrap_or(N));
+                let places = row.iter_mut().flat_map(|row| row.iter_mut());
+                places
+                    .zip(efforts)
+                    .for_each(|(place, effort)| *place = effort);
+                return;
+            }
+            for (mut row, of_chosen) in block.row_iter_mut().zip(&partition.columns) {
+                let share = at(of_chosen.as_slice(), rate);
+                let places = row.iter_mut().zip(efforts);
+                places.for_each(|(place, effort)| *place = effort.fused(share, *place));
+            }
+        });
+        block
+    }
+
     /// Gravity (m/s^2, global), by the body that described forces push least: it need not be
     /// exact to all digits beside a stiff spring.
     fn gravity_field(&self, state: &M::JointState<S>) -> [S; 3] {
+        // It is the same everywhere: where nothing pushes the first body as it is described, no
+        // orientation has to be found.
+        let described = M::initial_state(&self.constants);
+        let view = View::<S, M>::new(&self.constants, self.equations.time, &described);
+        let (gravity, pushed) = view.gravity_by(0);
+        if pushed <= S::zero() {
+            return gravity;
+        }
         let bodies = self.bodies(state);
         let view = View::<S, M>::new(&self.constants, self.equations.time, &bodies);
         let not_known = [S::constant(f64::NAN); 3];
@@ -190,10 +230,8 @@ struct Twisting<S> {
     position: [S; 3],
     /// Its acceleration (m/s^2, global).
     acceleration: [S; 3],
-    /// The rotation from principal to global axes, row by row.
-    rotation: [[S; 3]; 3],
-    /// Euler parameters from described to principal axes.
-    axes: [S; 4],
+    /// The described axes, in global ones.
+    axes: [[S; 3]; 3],
     /// Angular velocity (rad/s) and acceleration (rad/s^2), in described axes.
     spin: [S; 3],
     turning: [S; 3],
@@ -216,43 +254,61 @@ impl<S: Scalar> Twisting<S> {
         Self {
             position: values(motion.position),
             acceleration: slopes(motion.velocity),
-            rotation,
-            axes,
+            axes: units().map(|unit| {
+                let unit = rotate(&axes, &unit);
+                rotation.map(|row| dot(&row, &unit))
+            }),
             spin: rotate_back(&axes, &spin),
             turning: rotate_back(&axes, &turning),
         }
     }
 
     /// Components along the described axes of a global vector.
-    fn along_axes(&self, [x, y, z]: &[S; 3]) -> [S; 3] {
-        let [first, second, third] = &self.rotation;
-        let mut principal = [S::zero(); 3];
-        for (place, ((&a, &b), &c)) in principal
-            .iter_mut()
-            .zip(first.iter().zip(second).zip(third))
-        {
-            *place = a * *x + b * *y + c * *z;
-        }
-        rotate_back(&self.axes, &principal)
+    fn along_axes(&self, vector: &[S; 3]) -> [S; 3] {
+        self.axes.each_ref().map(|axis| dot(axis, vector))
     }
 
     /// By parameter the force and the moment about the described centre of mass that the motion
     /// takes, in described axes: `F = m a + w' x h + w x (w x h)`, `N = h x a + I w' + w x I w`.
-    fn wrenches(&self, gravity: &[S; 3]) -> [([S; 3], [S; 3]); 10] {
+    fn wrenches(&self, gravity: &[S; 3]) -> Wrenches<S> {
         let Self { spin, turning, .. } = self;
-        let zero = [S::zero(); 3];
         let a = self.along_axes(&minus(&self.acceleration, gravity));
-        let [hx, hy, hz] = units().map(|unit| {
+        let by_moments = units().map(|unit| {
             let inwards = cross(spin, &cross(spin, &unit));
             (plus(&cross(turning, &unit), &inwards), cross(&unit, &a))
         });
         let (momenta, rates) = (by_inertia(spin), by_inertia(turning));
-        let mut moments = rates;
-        for (moment, momentum) in moments.iter_mut().zip(&momenta) {
+        let mut by_inertia = rates;
+        for (moment, momentum) in by_inertia.iter_mut().zip(&momenta) {
             *moment = plus(moment, &cross(spin, momentum));
         }
-        let [xx, yy, zz, xy, xz, yz] = moments.map(|moment| (zero, moment));
-        [(a, zero), hx, hy, hz, xx, yy, zz, xy, xz, yz]
+        Wrenches {
+            by_mass: a,
+            by_moments,
+            by_inertia,
+        }
+    }
+}
+
+/// What the motion of a body takes, by its inertial parameters.
+struct Wrenches<S> {
+    /// A force.
+    by_mass: [S; 3],
+    /// By first moments, forces and moments.
+    by_moments: [([S; 3], [S; 3]); 3],
+    /// By the tensor, moments.
+    by_inertia: [[S; 3]; 6],
+}
+
+impl<S: Scalar> Wrenches<S> {
+    /// The work on a velocity and an angular velocity.
+    fn efforts(&self, v: &[S; 3], w: &[S; 3]) -> [S; 10] {
+        let [hx, hy, hz] = self
+            .by_moments
+            .each_ref()
+            .map(|(force, moment)| dot(v, force) + dot(w, moment));
+        let [xx, yy, zz, xy, xz, yz] = self.by_inertia.each_ref().map(|moment| dot(w, moment));
+        [dot(v, &self.by_mass), hx, hy, hz, xx, yy, zz, xy, xz, yz]
     }
 }
 

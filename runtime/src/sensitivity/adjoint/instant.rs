@@ -39,7 +39,9 @@ impl<M: JointRates, const U: usize, S: Real> Instant<'_, M, U, S> {
         self.controls
     }
 
-    /// The chosen coordinates (rad, m), in their order.
+    /// The chosen coordinates (rad, m), in their order. The gradient ends with
+    /// [`AnalysisFault::NoPosition`](crate::error::AnalysisFault::NoPosition) where one is a turn
+    /// of a ball.
     #[must_use]
     pub fn positions(&self) -> &[Lifted<S>] {
         self.standing.positions()

@@ -7,8 +7,9 @@
 //! transformed adjoint system*, 2000). So all controls of all steps together cost some runs.
 //!
 //! A step is gone through backwards by the kernel of `kernels = [adjoint]` where that is there
-//! (`transposed.rs`), else by steps over numbers that carry derivatives (`back.rs`). What the cost
-//! reads at an instant is made when it is read (`instant.rs`).
+//! (`transposed.rs`), else by steps over numbers that carry derivatives (`back.rs`). What is
+//! carried is by all that a state is made of (`slopes.rs`): nothing follows anything else but at
+//! the start. What the cost reads at an instant is made when it is read (`instant.rs`).
 
 mod back;
 mod instant;
@@ -79,7 +80,7 @@ pub struct Gradient<X, const N: usize, const U: usize, const P: usize, S = f64> 
     pub cost: S,
     /// By the controls of each step.
     pub by_controls: Vec<[S; U]>,
-    /// By the coordinates at the start.
+    /// By the coordinates at the start; of a ball by small turns along the axes of its rates.
     pub by_positions: SVector<S, N>,
     /// By the rates at the start.
     pub by_rates: SVector<S, N>,
@@ -164,22 +165,24 @@ where
     ///
     /// `held` are the inputs that controls are of, `values` parameters and inputs that stay. The
     /// others are those of the space, and so are the held ones at the end, where no step begins. A
-    /// parameter leaves the coordinates and rates of the start as
-    /// they are.
+    /// parameter leaves the coordinates and rates of the start as they are; what is not chosen
+    /// follows there.
     ///
-    /// In closed loops the gradient is that of states that satisfy the constraints, as those of
-    /// [`IndependentCoordinates::state`] do.
+    /// The gradient is that of the steps as they are taken. In closed loops they leave the
+    /// constraints a little, which is part of it. Of a law that bends at a switch it is that of the
+    /// sides where the stages are.
     ///
     /// # Errors
     /// - What a step refuses, and [`IndependentCoordinates::mass`].
-    /// - [`AnalysisFault::NoPosition`] of balls and free bodies: an orientation is no coordinate.
+    /// - [`AnalysisFault::NoPosition`] of a cost that reads [`Instant::positions`] where a turn of
+    ///   a ball or of a free body is chosen: an orientation is no coordinate.
     /// - [`AnalysisFault::GivenTwice`]: a value that stands twice among `held` and `values`.
     ///   [`StartFault::Setting`]: a step that is not positive.
     /// - [`StepFault::RatesNotFinite`](crate::error::StepFault::RatesNotFinite): a cost or its
     ///   gradient is not finite.
-    /// - [`StartFault::StateLeftOut`] of states of the user's own, [`StartFault::SwitchLeftOut`] of
-    ///   laws that switch, [`StartFault::LimitsLeftOut`] of limits in the description, unless the
-    ///   space is [`without_limits`](IndependentCoordinates::without_limits).
+    /// - [`StartFault::SwitchLeftOut`] of laws that jump, [`StartFault::LimitsLeftOut`] of limits
+    ///   in the description, unless the space is
+    ///   [`without_limits`](IndependentCoordinates::without_limits).
     pub fn gradient<const U: usize, const P: usize>(
         &self,
         start: &M::JointState<S>,

@@ -30,7 +30,7 @@ use crate::math::quaternion::{conjugate, length, product};
 use crate::math::scalar::Real;
 use crate::math::vec3::read;
 use crate::mechanism::handle::ValueHandle;
-use crate::mechanism::joint_kernels::{Freedom, JointMotion, JointParts as _};
+use crate::mechanism::joint_kernels::{Freedom, JointCoordinates, JointMotion, JointParts as _};
 use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::kernels::Terms;
 use crate::state::vector::{Array as _, MovingState as _};
@@ -53,8 +53,8 @@ pub(super) struct Transposed<M: JointRates, S: Real> {
 
 /// What the cost changes by with positions, and with rates and states of the user's own.
 type OfStage<M, S> = (
-    <M as crate::mechanism::joint_kernels::JointCoordinates>::JointVelocities<S>,
-    <M as crate::mechanism::joint_kernels::JointCoordinates>::AdjointWeights<S>,
+    <M as JointCoordinates>::JointVelocities<S>,
+    <M as JointCoordinates>::AdjointWeights<S>,
 );
 
 /// What the cost changes by with the inputs of a step: the first of these numbers.
@@ -225,7 +225,8 @@ impl<M: JointRates, S: Real> Transposed<M, S> {
         weights
     }
 
-    /// Adds slopes by turns at the start of a step, of those by Euler parameters at its end and stages.
+    /// Adds slopes by turns at the start of a step, of those by Euler parameters at its end and
+    /// stages.
     fn end(&self, number: usize, found: &mut Slopes<M, S>) {
         let count = self.slopes.len() - 1;
         let Some(start) = self.stages.get(number * count) else {
