@@ -5,7 +5,11 @@
 //!
 //! /// A rod on a hinge, which a motor turns.
 //! #[derive(Mechanism)]
-//! #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints", kernels = [mass, inverse, jacobian])]
+//! #[mechanism(
+//!     gravity = [0.0, 0.0, -9.81],
+//!     coordinates = "joints",
+//!     kernels = [mass, inverse, jacobian]
+//! )]
 //! struct Rod {
 //!     /// The length (m).
 //!     #[param]
@@ -43,9 +47,9 @@
 //! methods do is ordinary generic code of this crate. Names, units and comments are those of the
 //! mechanism's reports; nothing is registered twice.
 //!
-//! This crate has no unsafe code of its own. That which `pyo3`'s macros write, here and in the crate
-//! that calls [`module!`], is allowed by them: such a crate can deny `unsafe_code`, and not forbid
-//! it.
+//! This crate has no unsafe code of its own. That which `pyo3`'s macros write, here and in the
+//! crate that calls [`module!`], is allowed by them: such a crate can deny `unsafe_code`, and not
+//! forbid it.
 
 mod arrays;
 mod batch;

@@ -22,8 +22,8 @@
 ///   several motions, all joints have to be left out.
 /// - In braces stand readings: a name, what it is with its unit in parentheses, and a function of
 ///   the state. A function is compiled for numbers that carry derivatives, too.
-/// - `runs` before a mechanism makes a class that has `simulate` alone, for any description: without
-///   kernels, with ball joints, in coordinates of the bodies.
+/// - `runs` before a mechanism makes a class that has `simulate` alone, for any description:
+///   without kernels, with ball joints, in coordinates of the bodies.
 #[macro_export]
 macro_rules! module {
     ($(#[doc = $about:literal])* mod $module:ident; $($classes:tt)*) => {
@@ -203,10 +203,10 @@ macro_rules! __analysed {
             struct $mechanism($crate::__private::Object<Class>);
 
             $crate::__methods!($mechanism, {
-                /// Accelerations (rad/s^2, m/s^2), shape (..., N), under efforts `tau` (N m, N) along
-                /// the coordinates beside the described forces. `q` (rad, m), `v` (rad/s, m/s) and
-                /// `tau` have shape (..., N); the leading axes are the same, or there are none. Inputs
-                /// by name have shape () or that of the leading axes.
+                /// Accelerations (rad/s^2, m/s^2), shape (..., N), under efforts `tau` (N m, N)
+                /// along the coordinates beside the described forces. `q` (rad, m), `v` (rad/s,
+                /// m/s) and `tau` have shape (..., N); the leading axes are the same, or there are
+                /// none. Inputs by name have shape () or that of the leading axes.
                 #[pyo3(signature = (q, v=None, tau=None, *, inputs=None, time=0.0))]
                 fn forward_dynamics<'py>(
                     &self,
@@ -221,8 +221,8 @@ macro_rules! __analysed {
                     self.0.forward_dynamics::<N>(py, [Some(q), v, tau], &given)
                 }
 
-                /// Efforts (N m, N), shape (..., N), that have to act along the coordinates beside the
-                /// described forces for accelerations `a` (rad/s^2, m/s^2): `M(q) a + h(q, v)`.
+                /// Efforts (N m, N), shape (..., N), that have to act along the coordinates beside
+                /// the described forces for accelerations `a` (rad/s^2, m/s^2): `M(q) a + h(q, v)`.
                 #[pyo3(signature = (q, v=None, a=None, *, inputs=None, time=0.0))]
                 fn inverse_dynamics<'py>(
                     &self,
@@ -250,9 +250,9 @@ macro_rules! __analysed {
                     self.0.mass_matrix::<N>(py, q, &given)
                 }
 
-                /// Jacobians, shape (..., 6, N), of a body's centre of mass or of a named point: rows
-                /// 0 to 2 give its velocity (m/s, global), rows 3 to 5 the angular velocity of its
-                /// body (rad/s, global).
+                /// Jacobians, shape (..., 6, N), of a body's centre of mass or of a named point:
+                /// rows 0 to 2 give its velocity (m/s, global), rows 3 to 5 the angular velocity of
+                /// its body (rad/s, global).
                 #[pyo3(signature = (at, q, *, time=0.0))]
                 fn jacobian<'py>(
                     &self,
@@ -283,10 +283,10 @@ macro_rules! __analysed {
 
                 /// Runs many at once from `t_start` to `t_end` (s), in lanes and on cores, by the
                 /// Runge-Kutta method of order 4 with steps of `dt` (s) and a report after every so
-                /// many of them. `start` (rad, m) and `rates` (rad/s, m/s) have shape (B, N) or (N,);
-                /// parameters by name () or (B,); inputs by name (), (B,), or (B, S) with a number for
-                /// each of S steps. A run that cannot go on is NaN from there on, and stands in
-                /// `stopped`.
+                /// many of them. `start` (rad, m) and `rates` (rad/s, m/s) have shape (B, N) or
+                /// (N,); parameters by name () or (B,); inputs by name (), (B,), or (B, S) with a
+                /// number for each of S steps. A run that cannot go on is NaN from there on, and
+                /// stands in `stopped`.
                 #[pyo3(signature = (t_end, dt, *, every=1, start=None, rates=None, inputs=None, parameters=None, t_start=0.0, limits=true, threads=None))]
                 #[allow(clippy::too_many_arguments)]
                 fn rollouts<'py>(
@@ -360,13 +360,13 @@ macro_rules! __methods {
                 self.0.repr(py)
             }
 
-            /// Runs from `t_start` to `t_end` (s), with a report every so many seconds, at the start
-            /// and at the end. `start` (rad, m) and `rates` (rad/s, m/s) are by coordinate, in a
-            /// dictionary or an array of shape (N,); what is left out is as described. Inputs by name
-            /// are numbers, or arrays of shape (K,) with a number for every `period` (s). The method
-            /// is "dormand_prince" or "bdf" (for stiff mechanisms) with a relative tolerance, or
-            /// "rk4" with a step (s). Warnings of the run are those of Python, of the class
-            /// `RunWarning`.
+            /// Runs from `t_start` to `t_end` (s), with a report every so many seconds, at the
+            /// start and at the end. `start` (rad, m) and `rates` (rad/s, m/s) are by coordinate,
+            /// in a dictionary or an array of shape (N,); what is left out is as described. Inputs
+            /// by name are numbers, or arrays of shape (K,) with a number for every `period` (s).
+            /// The method is "dormand_prince" or "bdf" (for stiff mechanisms) with a relative
+            /// tolerance, or "rk4" with a step (s). Warnings of the run are those of Python, of the
+            /// class `RunWarning`.
             #[pyo3(signature = (t_end, *, every=0.01, start=None, rates=None, inputs=None, period=None, method="dormand_prince", tolerance=None, step=None, projection=true, reactions=false, film=true, t_start=0.0))]
             #[allow(clippy::too_many_arguments)]
             fn simulate<'py>(

@@ -330,21 +330,18 @@ impl<E: Exposed> Plan<E> {
     {
         let states = ensemble.states();
         for (lane, part) in lanes.iter_mut().enumerate() {
-            let positions = space.positions(&states[lane]).ok();
-            let positions = positions.filter(|_| ensemble.stopped()[lane].is_none());
-            match positions {
-                Some(positions) => {
-                    part.q.extend(positions.iter());
-                    part.v.extend(space.rates(&states[lane]).iter());
-                }
-                None => {
-                    let none = f64::NAN;
-                    part.q.extend([none; N]);
-                    part.v.extend([none; N]);
-                    part.readings.extend(E::READINGS.iter().map(|_| none));
-                    part.energy.push(none);
-                    part.violation.push(none);
-                }
+            let none = f64::NAN;
+            if ensemble.stopped()[lane].is_none() {
+                // Coordinates have positions: the macro refuses what has none.
+                let positions = space.positions(&states[lane]);
+                part.q.extend(positions.map_or([none; N], Into::into));
+                part.v.extend(space.rates(&states[lane]).iter());
+            } else {
+                part.q.extend([none; N]);
+                part.v.extend([none; N]);
+                part.readings.extend(E::READINGS.iter().map(|_| none));
+                part.energy.push(none);
+                part.violation.push(none);
             }
         }
         ensemble.each(|lane, view| {

@@ -1,5 +1,7 @@
 //! A Python module of some mechanisms.
 
+#![deny(unsafe_code)]
+
 use holonom::prelude::*;
 use holonom_models::{HeavyTop, Ur5};
 
