@@ -132,7 +132,7 @@ fn compare<C: TracedCoordinates<Bars> + Coordinates<Bars>>(name: &str, stop: f64
     let program = all_functions(&source);
     let bars = bars(stop);
     let stepper = bars.stepper(StandardLagrange, Rk4).expect("described");
-    let mut stepper = stepper.coordinates::<C>().without_limits();
+    let stepper = stepper.coordinates::<C>().without_limits();
     let start = stepper.initial_state().expect("described");
     let parameters = bars.parameters::<f64>().expect("acceptable");
     let rigid = Stabilisation {
@@ -152,12 +152,11 @@ fn compare<C: TracedCoordinates<Bars> + Coordinates<Bars>>(name: &str, stop: f64
     let mut random = ChaCha8Rng::seed_from_u64(47);
     let (mut refused, mut struck) = (0, 0);
     for number in 0..STATES {
-        let mut state = start;
-        if number % 2 == 0 {
-            state = random_state(&start, &mut random);
+        let state = if number % 2 == 0 {
+            random_state(&start, &mut random)
         } else {
-            state = near_by(&start, &mut random);
-        }
+            near_by(&start, &mut random)
+        };
         let dt = random.random_range(1e-3..2e-2) * [1.0, 4.0][number / 2 % 2];
         let [within, rest] = [[0.0, 0.0], [0.3, 0.5], [1.0, 2.0]][number % 3];
         let given = [&[0.0, 0.0][..], &numbers(&state), &[dt, within, rest, 1e-9]].concat();
