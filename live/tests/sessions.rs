@@ -304,7 +304,7 @@ fn turns_over([crank, coupler, rocker, base]: [f64; 4]) -> bool {
 fn lengths_move_at_random_and_the_loop_stays_closed() -> Result<(), Box<dyn Error>> {
     let h = FourBar::HANDLES;
     let mut session = linkage::live(FourBar::default()).session()?;
-    // Between the ends of both links at the knee (m), and on which side of the coupler the rocker is.
+    // Between the ends of both links at the knee (m), and on which side the rocker is.
     let knee = |session: &Session<FourBar, _, _>| -> Result<(f64, f64), Fault> {
         let (of, bodies) = (session.mechanism(), session.bodies());
         let view = of.view(session.time(), &bodies)?;
@@ -443,6 +443,34 @@ fn settings_that_are_none_are_refused() {
             ..
         })
     ));
+}
+
+/// A page has its module, without what is not run, and the film of its first seconds.
+#[test]
+fn a_page_has_a_module_and_a_film() -> Result<(), Box<dyn Error>> {
+    let file = env::temp_dir().join(format!("holonom-live-{}.html", std::process::id()));
+    let live = || linkage::live(FourBar::default()).preview(0.6);
+    let head = b"\0asm\x01\0\0\0";
+    // A section of exports, and one of names.
+    let module = [head, &b"\x07\x0fholonom_advance"[..], b"\x00\x02ab"].concat();
+    live().page_with(&file, &module)?;
+    let page = fs::read_to_string(&file)?;
+    fs::remove_file(&file)?;
+    let between = |start: &str| {
+        let (_, behind) = page.split_once(start).expect(start);
+        behind.split_once("</script>").expect("it ends").0
+    };
+    let program = between("id=\"live\">");
+    assert_eq!(program, "AGFzbQEAAAAHD2hvbG9ub21fYWR2YW5jZQ==");
+    let film: Value = serde_json::from_str(between("id=\"film\">"))?;
+    assert_eq!(film["title"], "A four-bar");
+    let times = film["times"].as_array().expect("frames");
+    let last = times.last().and_then(Value::as_f64).expect("a time");
+    assert!(times.len() == 121 && (last - 0.6).abs() < 1e-12, "{last} s");
+    assert_eq!(film["readings"].as_array().map(Vec::len), Some(4));
+    let refused = live().page_with(&file, head);
+    assert!(matches!(refused, Err(LiveError::NoModule)) && !file.exists());
+    Ok(())
 }
 
 /// Steps that are too long for a stiff spring are noticed, and shorter ones are not.
