@@ -21,8 +21,12 @@
 //! | [`Live::slider`] of an `#[input]` | a field of the struct | the run goes on |
 //! | [`Live::start_angle`], [`Live::start_displacement`] | a joint at the start | the run begins anew |
 //!
-//! A parameter is moved in parts of at most a twentieth of its range, so that loops stay on their
+//! A parameter is moved in parts of at most a twentieth of its range, and in smaller ones where
+//! bodies would follow by more than 0.1 rad or a tenth of the mechanism. So loops stay on their
 //! branch. A value that is refused leaves everything as it was, and the page shows the reason.
+//!
+//! Positions and velocities follow by the masses. In joint coordinates the rates of joints of the
+//! tree stay what they were, as far as loops let them.
 //!
 //! # Limits
 //!

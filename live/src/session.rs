@@ -4,6 +4,7 @@
 //! page take the same ones.
 
 use holonom::dynamics::{Bodies, Solvable, State};
+use holonom::error::AssemblyFault;
 use holonom::run::Steps;
 use holonom::{BodyHandle, Fault, Mechanism, MechanismExt as _, Stepper};
 use holonom_film::Film;
@@ -18,8 +19,12 @@ use crate::watch::Watch;
 const PART: f64 = 0.05;
 /// How far an assembled coordinate may be from what a slider says, in parts of its range.
 const OFF: f64 = 1e-6;
-/// Parts of a move, at most.
+/// Parts of a move, at most, unless something moves much.
 const MOST: f64 = 100.0;
+/// How far bodies follow a part of a move (rad, or extents of the mechanism).
+const LITTLE: f64 = 0.1;
+/// The smallest part of a move.
+const LEAST: f64 = 1.0 / 1024.0;
 
 /// A mechanism that runs under sliders.
 pub struct Session<M: Mechanism, P: Solvable<Number = f64, Mechanism = M>, K> {
@@ -198,47 +203,70 @@ where
         }
     }
 
-    /// Moves a value in parts that are small enough to stay on a branch.
+    /// Moves a value in parts, each so small that what follows it moves little: so loops stay on
+    /// their branch.
     fn moved(&mut self, place: usize, old: f64, value: f64) -> Result<(), Fault> {
+        if matches!(self.live.sliders[place].moves, Moves::Input(_)) {
+            self.put(place, value);
+            return self.stepper.update(&self.live.mechanism);
+        }
         let [low, high] = self.ends[place];
-        let is_input = matches!(self.live.sliders[place].moves, Moves::Input(_));
-        let parts = if is_input {
-            1.0
-        } else {
-            ((value - old).abs() / (PART * (high - low)))
-                .ceil()
-                .clamp(1.0, MOST)
-        };
-        for part in 1..=parts as usize {
-            let share = part as f64 / parts;
+        let parts = ((value - old).abs() / (PART * (high - low))).ceil();
+        let largest = 1.0 / parts.clamp(1.0, MOST);
+        let (mut share, mut part) = (0.0, largest);
+        while share < 1.0 {
+            let next = if share + part > 1.0 - LEAST {
+                1.0
+            } else {
+                share + part
+            };
+            let before = (self.stepper.clone(), self.state);
             self.put(
                 place,
-                if share < 1.0 {
-                    old + share * (value - old)
+                if next < 1.0 {
+                    old + next * (value - old)
                 } else {
                     value
                 },
             );
             self.stepper.update(&self.live.mechanism)?;
-            if !is_input {
-                self.close()?;
+            match self.close() {
+                Ok(true) => {
+                    share = next;
+                    part = largest.min(2.0 * part);
+                }
+                _ if part > LEAST => {
+                    (self.stepper, self.state) = before;
+                    part *= 0.5;
+                }
+                Ok(false) => {
+                    let joint = None;
+                    return Err(AssemblyFault::WayEnds { joint, share }.into());
+                }
+                Err(fault) => return Err(fault),
             }
         }
         Ok(())
     }
 
-    /// Closes joints that a parameter has opened, from where the bodies are.
-    fn close(&mut self) -> Result<(), Fault> {
+    /// Closes joints that a parameter has opened, from where the bodies are; whether these moved
+    /// little.
+    fn close(&mut self) -> Result<bool, Fault> {
         let open = self.bodies();
         let mut closed = open;
         let time = self.stepper.time();
-        self.live
+        let correction = self
+            .live
             .mechanism
             .assemble_from(time, &mut closed, &open)?;
         if closed != open {
             self.state = self.stepper.state_of(&closed)?;
         }
-        Ok(())
+        let is_little =
+            |angle: f64, length: f64| angle <= LITTLE && length <= LITTLE * self.watch.size();
+        Ok(correction
+            .moved
+            .is_none_or(|moved| is_little(moved.angle, moved.length)))
     }
 
     fn put(&mut self, place: usize, value: f64) {

@@ -14,6 +14,7 @@ use std::{env, fs};
 use holonom::BodyHandle;
 use holonom::dynamics::Solvable;
 use holonom::error::ParameterFault;
+use holonom::nalgebra::Vector3;
 use holonom::prelude::*;
 use holonom::run::Steps;
 use holonom_live::{Live, LiveError, Refused, Session};
@@ -289,6 +290,75 @@ fn what_is_refused_leaves_everything_as_it_was() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// Whether a four-bar of these lengths (crank, coupler, rocker, base) has a crank that turns over:
+/// then coupler and rocker are never in line (Grashof), and the sides are two branches.
+fn turns_over([crank, coupler, rocker, base]: [f64; 4]) -> bool {
+    let longest = coupler.max(rocker).max(base);
+    let others = coupler + rocker + base - longest;
+    crank < coupler.min(rocker).min(base) && crank + longest < 0.999 * others
+}
+
+/// Moves of all lengths while it runs. A move that is accepted leaves the loop closed and on its
+/// branch, where there are two; one that is refused leaves everything as it was.
+#[test]
+fn lengths_move_at_random_and_the_loop_stays_closed() -> Result<(), Box<dyn Error>> {
+    let h = FourBar::HANDLES;
+    let mut session = linkage::live(FourBar::default()).session()?;
+    // Between the ends of both links at the knee (m), and on which side the rocker is.
+    let knee = |session: &Session<FourBar, _, _>| -> Result<(f64, f64), Fault> {
+        let (of, bodies) = (session.mechanism(), session.bodies());
+        let view = of.view(session.time(), &bodies)?;
+        let end = |body, far| view.point(body, Vector3::new(far, 0.0, 0.0));
+        let (coupler, rocker) = (0.5 * of.coupler, 0.5 * of.rocker);
+        let [a, b] = [end(h.coupler_link, coupler), end(h.rocker_link, rocker)];
+        let along = a - end(h.coupler_link, -coupler);
+        let back = end(h.rocker_link, -rocker) - b;
+        Ok(((a - b).norm(), along.cross(&back).z))
+    };
+    let mut seed = 1_u32;
+    let mut random = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(seed >> 8) / f64::from(1_u32 << 24)
+    };
+    // Some do not reach.
+    let ends = [[0.1, 0.6], [0.5, 1.2], [0.3, 0.9], [0.4, 1.7]];
+    let lengths = |of: &FourBar| [of.crank, of.coupler, of.rocker, of.base];
+    let (mut moved, mut refused, mut branches) = (0, 0, 0);
+    for _ in 0..200 {
+        let place = (4.0 * random()) as usize;
+        let [low, high] = ends[place];
+        let (before, (_, side)) = (of_page(&session), knee(&session)?);
+        let (old, value) = (lengths(session.mechanism()), low + random() * (high - low));
+        match session.set(place, value) {
+            Ok(()) => {
+                moved += 1;
+                let (open, now) = knee(&session)?;
+                assert!(open < 1e-9, "{open} m at {} s", session.time());
+                let has_branches = (0..=20).all(|part| {
+                    let mut on_the_way = old;
+                    on_the_way[place] += 0.05 * f64::from(part) * (value - old[place]);
+                    turns_over(on_the_way)
+                });
+                branches += usize::from(has_branches);
+                assert!(
+                    !has_branches || now * side > 0.0,
+                    "{old:?}: {side} m2, {now} m2"
+                );
+            }
+            Err(_) => {
+                refused += 1;
+                assert_eq!(of_page(&session), before);
+            }
+        }
+        if session.advance(40).is_err() {
+            session.restart()?;
+        }
+    }
+    let seen = [moved, refused, branches];
+    assert!(seen.iter().all(|&count| count > 5), "{seen:?}");
+    Ok(())
+}
+
 #[test]
 fn a_fault_keeps_the_last_good_state() -> Result<(), Box<dyn Error>> {
     let mut session = Live::new(CartPole::default())
@@ -373,6 +443,34 @@ fn settings_that_are_none_are_refused() {
             ..
         })
     ));
+}
+
+/// A page has its module, without what is not run, and the film of its first seconds.
+#[test]
+fn a_page_has_a_module_and_a_film() -> Result<(), Box<dyn Error>> {
+    let file = env::temp_dir().join(format!("holonom-live-{}.html", std::process::id()));
+    let live = || linkage::live(FourBar::default()).preview(0.6);
+    let head = b"\0asm\x01\0\0\0";
+    // A section of exports, and one of names.
+    let module = [head, &b"\x07\x0fholonom_advance"[..], b"\x00\x02ab"].concat();
+    live().page_with(&file, &module)?;
+    let page = fs::read_to_string(&file)?;
+    fs::remove_file(&file)?;
+    let between = |start: &str| {
+        let (_, behind) = page.split_once(start).expect(start);
+        behind.split_once("</script>").expect("it ends").0
+    };
+    let program = between("id=\"live\">");
+    assert_eq!(program, "AGFzbQEAAAAHD2hvbG9ub21fYWR2YW5jZQ==");
+    let film: Value = serde_json::from_str(between("id=\"film\">"))?;
+    assert_eq!(film["title"], "A four-bar");
+    let times = film["times"].as_array().expect("frames");
+    let last = times.last().and_then(Value::as_f64).expect("a time");
+    assert!(times.len() == 121 && (last - 0.6).abs() < 1e-12, "{last} s");
+    assert_eq!(film["readings"].as_array().map(Vec::len), Some(4));
+    let refused = live().page_with(&file, head);
+    assert!(matches!(refused, Err(LiveError::NoModule)) && !file.exists());
+    Ok(())
 }
 
 /// Steps that are too long for a stiff spring are noticed, and shorter ones are not.
