@@ -451,8 +451,8 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
 
     /// Derivatives of the accelerations of the joints' rates: by the positions of the joints, by
     /// their rates, by efforts along them, by inputs and by the parameters that are named, of a
-    /// mechanism with `kernels = [derivatives]`. It has fewer operations than [`Export::derivatives`], whose rows
-    /// and columns are the numbers of a state.
+    /// mechanism with `kernels = [derivatives]`. It has fewer operations than
+    /// [`Export::derivatives`], whose rows and columns are the numbers of a state.
     ///
     /// In a mechanism with loops, positions and rates are taken as if they could change one by one.
     #[must_use]
@@ -482,8 +482,8 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
             None,
             written("jacobian", jacobian),
             |(constants, time, state), _| {
-                // Columns stand one after the other, behind the accelerations; those by the user's own
-                // states, and what they do to the rates of these, are left out.
+                // Columns stand one after the other, behind the accelerations. Left out are those by
+                // the user's own states, and the rates of these.
                 let states = M::JOINT_REPORT.states.len();
                 let places = (0..columns).map(|column| match column {
                     column if column < 2 * rows => column,

@@ -48,6 +48,13 @@ enum Part {
 /// A column of a part, and the direction that it belongs to.
 type Column = (Part, usize, Along);
 
+/// The columns of coordinates and of their rates.
+fn coordinates<const N: usize>() -> impl Iterator<Item = Column> {
+    let positions = (0..N).map(|number| (Part::Positions, number, Along::Position(number)));
+    let rates = (0..N).map(|number| (Part::Rates, number, Along::Rate(number)));
+    positions.chain(rates)
+}
+
 /// Efforts and readings along directions.
 type Slopes<S, const N: usize, const P: usize> = ([Lifted<S>; N], [Lifted<S>; P]);
 
@@ -180,33 +187,17 @@ where
             }
             _ => None,
         };
-        let positions = (0..N).map(|number| (Part::Positions, number, Along::Position(number)));
-        let rates = (0..N).map(|number| (Part::Rates, number, Along::Rate(number)));
+        let constants = lifted(&self.constants);
+        if let Some(derived) = derived.as_ref().filter(|_| P > 0) {
+            let moving = (state, derived, following);
+            self.read_along_coordinates(moving, &constants, &read, &mut linear);
+        }
         let values = values.iter().enumerate();
         let values = values.map(|(number, &value)| (Part::Values, number, value.into()));
-        let coordinates = positions.chain(rates);
-        let constants = lifted(&self.constants);
-        // Readings along coordinates and rates, by the kernel where it is there.
-        let mut are_read = false;
-        if P > 0
-            && let Some(derived) = &derived
-        {
-            are_read = true;
-            let moving = Moving::new(self, state);
-            let time = Forward::fixed(self.equations.time);
-            let mut columns = coordinates.clone();
-            loop {
-                let columns: [_; LANES] = from_fn(|_| columns.next());
-                let [Some(_), ..] = columns else { break };
-                let directions = columns.map(|column| column.map(|(.., along)| along));
-                let bodies = moving.along(derived, following, &directions);
-                let readings = read(&View::new(&constants, time, &bodies));
-                linear.put_readings(&columns, &readings);
-            }
-        }
-        let columns = coordinates.chain(values);
-        let is_read = |along| P == 0 || are_read && !matches!(along, Along::Value(_));
-        let mut columns = columns.filter(|&(.., along)| !is_read(along) || !is_known(along));
+        let has_readings = |part| P == 0 || derived.is_some() && !matches!(part, Part::Values);
+        let columns = coordinates::<N>().chain(values);
+        let mut columns =
+            columns.filter(|&(part, _, along)| !has_readings(part) || !is_known(along));
         loop {
             let columns: [_; LANES] = from_fn(|_| columns.next());
             let [Some(_), ..] = columns else { break };
@@ -247,6 +238,31 @@ where
             }
         }
         finite(linear)
+    }
+
+    /// Readings along coordinates and rates, with the motions of the bodies by the kernel.
+    fn read_along_coordinates<const K: usize, const P: usize>(
+        &self,
+        (state, derived, following): (
+            &M::JointState<S>,
+            &Derived<M, N, S>,
+            Option<&Partition<M, N, S>>,
+        ),
+        constants: &M::Constants<Lifted<S>>,
+        read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
+        linear: &mut Linearised<N, K, P, S>,
+    ) {
+        let moving = Moving::new(self, state);
+        let time = Forward::fixed(self.equations.time);
+        let mut columns = coordinates::<N>();
+        loop {
+            let columns: [_; LANES] = from_fn(|_| columns.next());
+            let [Some(_), ..] = columns else { break };
+            let directions = columns.map(|column| column.map(|(.., along)| along));
+            let bodies = moving.along(derived, following, &directions);
+            let readings = read(&View::new(constants, time, &bodies));
+            linear.put_readings(&columns, &readings);
+        }
     }
 
     /// What rates of balls change by with positions, see [`turned`].
