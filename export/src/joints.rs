@@ -482,8 +482,8 @@ impl<M: JointCoordinates, P: Precision> Export<M, P, Relative> {
             None,
             written("jacobian", jacobian),
             |(constants, time, state), _| {
-                // Columns stand one after the other, behind the accelerations. Left out are those by
-                // the user's own states, and the rates of these.
+                // Columns stand one after the other, behind the accelerations. Left out are those
+                // by the user's own states, and the rates of these.
                 let states = M::JOINT_REPORT.states.len();
                 let places = (0..columns).map(|column| match column {
                     column if column < 2 * rows => column,

@@ -189,8 +189,8 @@ where
         };
         let constants = lifted(&self.constants);
         if let Some(derived) = derived.as_ref().filter(|_| P > 0) {
-            let moving = (state, derived, following);
-            self.read_along_coordinates(moving, &constants, &read, &mut linear);
+            let moving = Moving::new(self, state, derived, following);
+            self.read_along_coordinates(&moving, &constants, &read, &mut linear);
         }
         let values = values.iter().enumerate();
         let values = values.map(|(number, &value)| (Part::Values, number, value.into()));
@@ -243,23 +243,18 @@ where
     /// Readings along coordinates and rates, with the motions of the bodies by the kernel.
     fn read_along_coordinates<const K: usize, const P: usize>(
         &self,
-        (state, derived, following): (
-            &M::JointState<S>,
-            &Derived<M, N, S>,
-            Option<&Partition<M, N, S>>,
-        ),
+        moving: &Moving<'_, M, N, S>,
         constants: &M::Constants<Lifted<S>>,
         read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
         linear: &mut Linearised<N, K, P, S>,
     ) {
-        let moving = Moving::new(self, state);
         let time = Forward::fixed(self.equations.time);
         let mut columns = coordinates::<N>();
         loop {
             let columns: [_; LANES] = from_fn(|_| columns.next());
             let [Some(_), ..] = columns else { break };
             let directions = columns.map(|column| column.map(|(.., along)| along));
-            let bodies = moving.along(derived, following, &directions);
+            let bodies = moving.along(&directions);
             let readings = read(&View::new(constants, time, &bodies));
             linear.put_readings(&columns, &readings);
         }

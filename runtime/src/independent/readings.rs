@@ -12,29 +12,33 @@ use crate::mechanism::joint_rates::JointRates;
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, StateParts, Vector as _};
 
-/// The bodies at a state, and what their motions change by.
-pub(super) struct Moving<M: JointRates, S: Scalar> {
+/// The bodies at a state, what their motions change by, and how rates follow where loops close.
+pub(super) struct Moving<'d, M: JointRates, const N: usize, S: Scalar> {
     numbers: M::MotionsAlong<S>,
     bodies: M::State<S>,
+    derived: &'d Derived<M, N, S>,
+    following: Option<&'d Partition<M, N, S>>,
 }
 
-impl<M: JointRates, S: Real> Moving<M, S> {
-    pub(super) fn new<const N: usize>(
+impl<'d, M: JointRates, const N: usize, S: Real> Moving<'d, M, N, S> {
+    pub(super) fn new(
         space: &IndependentCoordinates<M, N, S>,
         state: &M::JointState<S>,
+        derived: &'d Derived<M, N, S>,
+        following: Option<&'d Partition<M, N, S>>,
     ) -> Self {
         let equations = &space.equations;
         Self {
             numbers: M::motions_along(&equations.constants, equations.time, state),
             bodies: space.bodies(state),
+            derived,
+            following,
         }
     }
 
     /// The bodies along some directions, none of which is a value.
-    pub(super) fn along<const N: usize, const K: usize>(
+    pub(super) fn along<const K: usize>(
         &self,
-        derived: &Derived<M, N, S>,
-        following: Option<&Partition<M, N, S>>,
         directions: &[Option<Along>; K],
     ) -> M::State<Forward<S, K>> {
         let here = &self.bodies;
@@ -48,7 +52,7 @@ impl<M: JointRates, S: Real> Moving<M, S> {
             let Some(direction) = *direction else {
                 continue;
             };
-            let [displacement, rates] = derived.changes(following, direction);
+            let [displacement, rates] = self.derived.changes(self.following, direction);
             let [displaced, changed] = self.changes(&displacement, &rates);
             self.count(&displacement, lane, &mut there);
             self.put([displaced.as_slice(), changed.as_slice()], lane, &mut there);

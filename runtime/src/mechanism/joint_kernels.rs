@@ -123,9 +123,9 @@ pub trait JointCoordinates: Mechanism {
     }
 
     /// With [`JointCoordinates::derivatives`], what the velocities of the bodies change by, in the
-    /// order and the axes of [`Mechanism::Velocities`]: along each rate, and then along the position
-    /// of each joint. Along a rate they are also how its position displaces the bodies. Behind them
-    /// stands what auxiliary variables change by along each position.
+    /// order and the axes of [`Mechanism::Velocities`]: along each rate, and then along the
+    /// position of each joint. Along a rate they are also how its position displaces the bodies.
+    /// Behind them stands what auxiliary variables change by along each position.
     fn motions_along<S: Scalar>(
         _constants: &Self::JointConstants<S>,
         _time: S,

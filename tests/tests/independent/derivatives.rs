@@ -359,7 +359,7 @@ fn loops_and_drivers() -> Result<(), Fault> {
     let (h, g) = (Looped::HANDLES, PlainLooped::HANDLES);
     assert_eq!(Looped::DERIVED_BY.map(<[usize]>::len), Some(3));
     // This is of trees.
-    assert!(!Looped::HAS_FORWARD && Crawler::HAS_FORWARD);
+    const { assert!(!Looped::HAS_FORWARD && Crawler::HAS_FORWARD) };
     for seed in 0..20 {
         let mut noise = noise(17 * seed);
         let q: [f64; 2] = from_fn(|_| 0.3 * noise());

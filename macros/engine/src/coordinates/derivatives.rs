@@ -11,7 +11,7 @@
 
 use super::candidates::Method;
 use super::joint_rates::{Sums, Wanted};
-use super::kernels::bodies;
+use super::motions::bodies;
 use super::rates::coordinate_rates;
 use super::system::Reduced;
 use crate::model::{Asked, BodyKind, Model, Number};

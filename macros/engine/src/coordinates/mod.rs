@@ -72,6 +72,7 @@ pub mod kernels;
 mod kinematics;
 pub mod links;
 mod mass;
+mod motions;
 mod origins;
 mod rates;
 mod reference;

@@ -3,7 +3,6 @@
 //! An evaluation is differentiated operation by operation, along every number of the state. In
 //! joint coordinates there is a shorter road as well (`coordinates/derivatives.rs`).
 
-use super::kernels::Evaluation;
 use super::system::Terms;
 use crate::model::{Asked, Coordinates, Curve, Model};
 use crate::symbolic::arena::{Arena, Input, Node, Stage};
@@ -22,7 +21,10 @@ pub struct RateColumns {
 
 /// Those of all evaluations, where they are asked for and bodies alone are described. None where a
 /// row has a spline: its `gamma` has the second derivative of that, and the third one jumps.
-pub(super) fn rate_columns(model: &Model, evaluations: &[Evaluation]) -> Vec<RateColumns> {
+pub(super) fn rate_columns<'k>(
+    model: &Model,
+    evaluations: impl Iterator<Item = (Terms, &'k Kernel)>,
+) -> Vec<RateColumns> {
     let are_asked = model.asked.contains(&Asked::Derivatives);
     if !are_asked || model.coordinates != Coordinates::Bodies {
         return Vec::new();
@@ -34,16 +36,13 @@ pub(super) fn rate_columns(model: &Model, evaluations: &[Evaluation]) -> Vec<Rat
     let directions: Vec<Direction> = inputs
         .map(|input| Direction::from([(input, Arena::ONE)]))
         .collect();
-    let columns = evaluations.iter().map(|Evaluation { terms, kernel, .. }| {
+    let columns = evaluations.map(|(terms, kernel)| {
         let mut arena = kernel.arena.clone();
         let rates = &kernel.outputs[..directions.len()];
         let outputs = along(&mut arena, rates, &directions).concat();
         let mut kernel = Kernel { arena, outputs };
         kernel.gather(&[]);
-        RateColumns {
-            terms: *terms,
-            kernel,
-        }
+        RateColumns { terms, kernel }
     });
     let columns: Vec<RateColumns> = columns.collect();
     if columns.iter().all(|columns| is_smooth(&columns.kernel)) {

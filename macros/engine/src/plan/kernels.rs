@@ -154,6 +154,9 @@ impl Kernels {
                 back_substitution(compliant, Terms::Compliant),
             ];
         }
+        let with_terms = evaluations.iter();
+        let with_terms = with_terms.map(|evaluation| (evaluation.terms, &evaluation.kernel));
+        let rate_columns = rate_columns(model, with_terms);
         let (jacobian, blocks) = jacobian(scene, model);
         let minus = -Arena::ONE;
         let (one, zero) = (Arena::ONE, Arena::ZERO);
@@ -190,7 +193,7 @@ impl Kernels {
                 vec![scene.space.arena.sum(powers)]
             }),
             readouts: Readouts::new(scene, model),
-            rate_columns: rate_columns(model, &evaluations),
+            rate_columns,
             evaluations,
             gains: (!is_fused).then(gains),
             solvers,
