@@ -150,7 +150,8 @@ impl<S: Real, M: Mechanism> Set<S, M> {
     /// then they do not contradict each other.
     pub(super) fn may_be_free(&self) -> bool {
         let free = usize::try_from(M::REPORT.degrees_of_freedom);
-        free.is_ok_and(|free| self.changed <= free)
+        // Equations of velocities leave all configurations.
+        free.is_ok_and(|free| self.changed <= free + M::REPORT.velocity_rows.len())
     }
 
     /// The largest turn (rad), or slide in lengths of the mechanism.

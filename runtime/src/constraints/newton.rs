@@ -1,7 +1,7 @@
 //! Newton's method for positions and velocities on the constraints.
 
 use crate::constraints::retract::displaced;
-use crate::constraints::rows::{Rows, Sizes, Speeds, fraction};
+use crate::constraints::rows::{Rows, Sizes, Speeds, fraction, yield_velocities};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::{Compliant, Mechanism, Stabilisation};
@@ -181,7 +181,13 @@ impl<S: Real, M: Mechanism> Iterate<S, M> {
     /// The `d` of least `d^T M d` with `D d = -violation`, with compliances that are a part of what
     /// each row yields by itself.
     fn correction(&self, constants: &M::Constants<S>, part: S) -> M::Velocities<S> {
-        self.solved(constants, &self.system(constants, part))
+        let mut compliances = self.rows.compliances(part);
+        yield_velocities::<S, M>(&mut compliances);
+        let yielding = (part, &compliances);
+        self.solved(
+            constants,
+            &factorised(constants, &self.rows, &self.state, yielding),
+        )
     }
 
     fn system(&self, constants: &M::Constants<S>, part: S) -> Factorised<S, M> {
@@ -327,7 +333,7 @@ pub(crate) fn compliant<S: Real, M: Mechanism>(
 }
 
 /// The same with a part of what each row yields by the heaviest of its bodies: so a light body
-/// carries a heavy one. What round-off resolves of the whole row is the least.
+/// carries a heavy one. What round-off resolves of the whole row is the least. For positions.
 pub(crate) fn compliant_by_heaviest<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     rows: &Rows<S, M>,
@@ -340,6 +346,7 @@ pub(crate) fn compliant_by_heaviest<S: Real, M: Mechanism>(
     for (compliance, &heaviest) in pairs.zip(heaviest.as_slice()) {
         *compliance = compliance.max(part * heaviest);
     }
+    yield_velocities::<S, M>(&mut compliances);
     factorised(constants, rows, state, (part, &compliances))
 }
 

@@ -104,6 +104,12 @@ pub enum AnalysisFault {
         /// The expression whose sign decides.
         expression: &'static str,
     },
+    /// A joint has equations of velocities, such as rolling. They determine no positions: those of
+    /// a configuration follow neither from chosen coordinates nor from the time.
+    VelocityEquations {
+        /// The joint's field.
+        joint: &'static str,
+    },
     /// A kinematic analysis of a mechanism that its equations do not determine: there are fewer
     /// than velocities.
     NotDriven {
@@ -204,6 +210,11 @@ impl fmt::Display for AnalysisFault {
                 f,
                 "`{expression}` in the law of `{law}` is zero in this state, and the law is another one on each side: there is no derivative, and what sticks has \
                  a range of equilibria; take a state beside it (a rate that is not zero), or a law by `smooth_step`"
+            ),
+            Self::VelocityEquations { joint } => write!(
+                f,
+                "joint `{joint}` has equations of velocities, which determine no positions: neither chosen coordinates nor a kinematic analysis have them; take \
+                 a run"
             ),
             Self::NotDriven { degrees_of_freedom } => not_driven(f, degrees_of_freedom),
             Self::MotionLeftFree { share } => write!(

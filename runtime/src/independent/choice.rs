@@ -7,6 +7,7 @@ use crate::error::{AnalysisFault, AssemblyFault, Fault};
 use crate::math::without_bounds::copied;
 use crate::mechanism::handle::{BodyHandle, JointHandle};
 use crate::mechanism::joint_kernels::{JointCoordinates, JointMotion};
+use crate::mechanism::kernels::configurations_alone;
 
 /// Something with one rate: a joint that has one motion, or one motion of a joint.
 pub trait Coordinate<M>: Copy + sealed::Sealed {
@@ -219,6 +220,7 @@ tuples! {
 pub(super) fn places<M: JointCoordinates, const N: usize>(
     chosen: impl Chosen<M, N>,
 ) -> Result<[usize; N], Fault> {
+    configurations_alone::<M>()?;
     let degrees_of_freedom = degrees_of_freedom::<M>();
     if N != degrees_of_freedom {
         return Err(Fault::Analysis(AnalysisFault::ChosenCount {

@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use crate::error::{LeavesOut, ParameterError, StartFault, StepFault};
+use crate::error::{AnalysisFault, Fault, LeavesOut, ParameterError, StartFault, StepFault};
 use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::coordinates::{Coordinates, Evaluation};
 use crate::mechanism::limits::{JointLimits, Several};
@@ -522,6 +522,16 @@ pub(crate) fn bodies_alone<M: Mechanism>(by: LeavesOut) -> Result<(), StartFault
             state: first.name,
             by,
         }),
+    }
+}
+
+/// Refuses a mechanism whose equations do not all hold configurations.
+pub(crate) fn configurations_alone<M: Mechanism>() -> Result<(), Fault> {
+    match M::REPORT.velocity_rows {
+        [] => Ok(()),
+        [first, ..] => Err(Fault::Analysis(AnalysisFault::VelocityEquations {
+            joint: M::REPORT.joint_of(*first).unwrap_or_default(),
+        })),
     }
 }
 

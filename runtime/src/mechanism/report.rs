@@ -48,6 +48,9 @@ pub struct Report {
     /// Velocities less the rank where it was decided; else velocities less equations (Gruebler's
     /// count).
     pub degrees_of_freedom: isize,
+    /// The rows that are equations of velocities, as those of rolling: they stand in `Phi'`, and
+    /// their `Phi` is zero everywhere.
+    pub velocity_rows: &'static [usize],
     /// Where the time itself stands in the equations.
     pub time: ExplicitTime,
     /// Whether there are velocities without rotation in `gamma`: an equation that is not linear in

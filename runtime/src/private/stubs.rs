@@ -80,6 +80,7 @@ macro_rules! __stub_mechanism {
                     rank: $crate::mechanism::Rank::NotDecided,
                     redundant: &[],
                     degrees_of_freedom: 0,
+                    velocity_rows: &[],
                     time: $crate::mechanism::ExplicitTime::NONE,
                     curved: false,
                     kernels: &[],

@@ -14,7 +14,7 @@ use crate::error::{AnalysisFault, Fault, LeavesOut, SimulationError};
 use crate::formulation::Formulation;
 use crate::math::scalar::Real;
 use crate::measure::load::{ForceLaw, Loads, NoForces};
-use crate::mechanism::kernels::{Mechanism, bodies_alone};
+use crate::mechanism::kernels::{Mechanism, bodies_alone, configurations_alone};
 use crate::mechanism::orientations::check_state;
 use crate::monitor::Warnings;
 use crate::nonsmooth::described::check_limits;
@@ -188,7 +188,8 @@ where
     ///
     /// # Errors
     /// Time, cause and last good state where the analysis cannot go on:
-    /// [`AnalysisFault::NotDriven`] for a mechanism with fewer equations than velocities,
+    /// [`AnalysisFault::VelocityEquations`] for a mechanism with equations of velocities,
+    /// [`AnalysisFault::NotDriven`] for one with fewer equations than velocities,
     /// [`AnalysisFault::MotionLeftFree`] where they leave a motion free all the same,
     /// [`StepFault::NotConverged`](crate::error::StepFault::NotConverged) where no pose is found,
     /// [`AssemblyFault::BeyondLimit`](crate::error::AssemblyFault::BeyondLimit) of a pose beyond a
@@ -237,6 +238,7 @@ where
         let mut schedule = Schedule::new(start, end, reporting)?;
         check_state::<S, M>(&state)?;
         bodies_alone::<M>(LeavesOut::Kinematics)?;
+        configurations_alone::<M>()?;
         let degrees_of_freedom = M::REPORT.degrees_of_freedom;
         if degrees_of_freedom > 0 {
             return Err(Fault::Analysis(AnalysisFault::NotDriven {

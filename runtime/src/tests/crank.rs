@@ -111,6 +111,7 @@ impl Mechanism for Crank {
         states: &[],
         equations: 6,
         degrees_of_freedom: 0,
+        velocity_rows: &[],
         time: ExplicitTime {
             constraints: true,
             ..ExplicitTime::NONE

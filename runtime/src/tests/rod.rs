@@ -127,6 +127,7 @@ impl Mechanism for Rod {
         },
         redundant: &[],
         degrees_of_freedom: 1,
+        velocity_rows: &[],
         time: ExplicitTime::NONE,
         curved: false,
         kernels: &[],

@@ -8,7 +8,7 @@ pub(super) fn turns(joint: &ElementDef, body: usize) -> bool {
     let moment = |action: &Action| matches!(action, Action::Moment { body: b, .. } if *b == body);
     let turns = |term: &Term| match term {
         Term::Onto(b, _) => *b == body,
-        Term::Spin { from, to } => *from == body || *to == body,
+        Term::Spin { from, to } => *from == Some(body) || *to == body,
         _ => false,
     };
     joint.terms().any(|term| term.has(turns)) || joint.actions.iter().any(moment)

@@ -213,37 +213,30 @@ impl Context<'_> {
     }
 
     fn rate(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
-        let [argument] = self.arguments::<1>(call, "1 number", faults)?;
-        let argument = self.argument("rate", argument, faults);
-        if self.kind == ElementKind::Joint {
-            faults.at(
-                call,
-                "the equations of a joint speak of positions and of the time; `rate` belongs in `force!`",
-            );
-            return None;
-        }
-        let argument = argument?;
-        if argument.has(Term::is_rate) {
+        let [argument] = self.arguments::<1>(call, "1 number or vector", faults)?;
+        let argument = self.expression(argument, faults)?;
+        if argument.terms.iter().any(|term| term.has(Term::is_rate)) {
             faults.at(
                 call,
                 "there is no rate of a rate: accelerations are what is solved for",
             );
             return None;
         }
-        Some(Shaped::scalar(Term::Rate(Box::new(argument))))
+        let rate = |term| Term::Rate(Box::new(term));
+        Some(Shaped {
+            vector: argument.vector,
+            terms: argument.terms.into_iter().map(rate).collect(),
+        })
     }
 
     fn angular_velocity(&self, call: &ExprCall, faults: &mut Faults) -> Option<Shaped> {
-        let [from, to] =
-            self.arguments::<2>(call, "two bodies, as in `angular_velocity(i, j)`", faults)?;
-        let (from, to) = (self.body(from, faults), self.body(to, faults));
-        if self.kind == ElementKind::Joint {
-            faults.at(
-                call,
-                "the equations of a joint speak of positions and of the time; `angular_velocity` belongs in `force!`",
-            );
-            return None;
+        if call.args.len() == 1 {
+            let to = self.body(&call.args[0], faults)?;
+            return Some(Shaped::vector(Term::Spin { from: None, to }));
         }
+        let wanted = "one body, or two as in `angular_velocity(i, j)`";
+        let [from, to] = self.arguments::<2>(call, wanted, faults)?;
+        let (from, to) = (self.body(from, faults), self.body(to, faults));
         let (from, to) = (from?, to?);
         if from == to {
             faults.at(
@@ -252,6 +245,7 @@ impl Context<'_> {
             );
             return None;
         }
+        let from = Some(from);
         Some(Shaped::vector(Term::Spin { from, to }))
     }
 

@@ -259,10 +259,10 @@ impl Reader<'_> {
             Statement::Zero(expr) => {
                 if let Some(shaped) = self.context.expression(expr, faults)
                     && self.joint_only(expr, "an equation", faults)
-                    && shaped
-                        .terms
-                        .iter()
-                        .all(|term| self.must_move(term, expr, "this equation", faults))
+                    && shaped.terms.iter().all(|term| {
+                        self.must_move(term, expr, "this equation", faults)
+                            && is_linear(term, expr, faults)
+                    })
                 {
                     self.rows.extend(shaped.rows());
                     self.places.resize(self.rows.len(), expr.span());
@@ -273,8 +273,16 @@ impl Reader<'_> {
                 let term = self.context.scalar(expr, faults);
                 if self.displacement.is_some() {
                     faults.at(keyword, "a joint has one displacement; this is the second");
-                } else if self.joint_only(keyword, "a displacement", faults) {
-                    self.displacement = term;
+                } else if self.joint_only(keyword, "a displacement", faults)
+                    && let Some(term) = term
+                    && !has_rate(
+                        &term,
+                        expr,
+                        "a displacement depends on positions alone; its rate is read by `displacement_rate`",
+                        faults,
+                    )
+                {
+                    self.displacement = Some(term);
                 }
             }
             Statement::Require(keyword, written) => self.require(keyword, written, faults),
@@ -292,9 +300,10 @@ impl Reader<'_> {
                 } else if self.joint_only(keyword, "a driver", faults)
                     && let (Some(driven), Some(law)) = (driven, law)
                     && self.must_move(&driven, written, "what is driven", faults)
+                    && let difference = Term::Sum(vec![(false, driven), (true, law)])
+                    && is_linear(&difference, written, faults)
                 {
                     self.drive = Some(self.rows.iter().map(Row::equations).sum());
-                    let difference = Term::Sum(vec![(false, driven), (true, law)]);
                     self.rows.push(Row::Scalar(difference));
                     self.places.push(keyword.span());
                 }
@@ -499,6 +508,19 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// Refuses an equation of velocities that is not linear in them.
+fn is_linear(term: &Term, at: impl ToTokens, faults: &mut Faults) -> bool {
+    let is_linear = term.degree().is_some();
+    if !is_linear {
+        faults.at(
+            at,
+            "an equation of velocities is linear in them: a sum of terms with one `rate(..)` or `angular_velocity(..)` each, \
+             times what depends on positions and the time",
+        );
+    }
+    is_linear
 }
 
 /// Refuses a rate where it has no place.

@@ -270,7 +270,8 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
         let (joint, row) = (redundant.joint, redundant.row);
         quote!(#facade::__private::RedundantRow { joint: #joint, row: #row, dropped: #dropped })
     });
-    let time = explicit_time(&ExplicitTime::of(kernels), facade);
+    let time = explicit_time(&ExplicitTime::of(kernels, model), facade);
+    let velocity_rows = model.velocity_rows();
     let curved = is_curved(model, &kernels.gamma);
     let plan = kernels.plans.as_ref();
     let plan = plan.map_or("rows in turn".into(), |plans| {
@@ -296,6 +297,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             rank: #rank,
             redundant: &[#(#redundant),*],
             degrees_of_freedom: #degrees_of_freedom,
+            velocity_rows: &[#(#velocity_rows),*],
             time: #time,
             curved: #curved,
             kernels: &[#(#costs),*],

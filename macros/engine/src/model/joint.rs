@@ -134,12 +134,12 @@ pub enum Term {
     Angle(Turn),
     /// A scalar as it is in the reference configuration.
     Initial(Box<Term>),
-    /// The time derivative of a scalar.
+    /// The time derivative of a scalar, or of a vector in global axes.
     Rate(Box<Term>),
-    /// The angular velocity of a body against another.
+    /// The angular velocity of a body against another, or against global axes.
     Spin {
         /// The place of the body that it is measured from.
-        from: usize,
+        from: Option<usize>,
         /// The place of the body that turns.
         to: usize,
     },
@@ -245,10 +245,45 @@ impl Term {
         }
     }
 
-    /// Whether it is a rate itself, which has no derivative.
+    /// Whether it is a rate itself.
     #[must_use]
     pub const fn is_rate(&self) -> bool {
         matches!(self, Self::Rate(_) | Self::Spin { .. })
+    }
+
+    /// Its degree in rates, where every term has one: 0 for a number of positions, 1 for what is
+    /// linear in rates or has a part without; `None` where it is no polynomial of them of degree 1.
+    #[must_use]
+    pub fn degree(&self) -> Option<usize> {
+        let degree = match self {
+            Self::Rate(_) | Self::Spin { .. } => 1,
+            Self::Sum(terms) => terms
+                .iter()
+                .try_fold(0, |most, (_, term)| Some(term.degree()?.max(most)))?,
+            Self::Product(a, b) | Self::Dot(a, b) | Self::Cross(a, b) => {
+                a.degree()? + b.degree()?
+            }
+            Self::Components(components) => components
+                .iter()
+                .try_fold(0, |most, term| Some(term.degree()?.max(most)))?,
+            other if other.has(Self::is_rate) => return None,
+            _ => 0,
+        };
+        (degree <= 1).then_some(degree)
+    }
+
+    /// Whether every term of what is linear in rates holds one.
+    fn is_homogeneous(&self) -> bool {
+        match self {
+            Self::Sum(terms) => terms.iter().all(|(_, term)| term.is_homogeneous()),
+            Self::Product(a, b) | Self::Dot(a, b) | Self::Cross(a, b) => {
+                a.is_homogeneous() || b.is_homogeneous()
+            }
+            Self::Components(components) => components
+                .iter()
+                .all(|term| term.is_homogeneous() || matches!(**term, Self::Number(0.0))),
+            other => other.is_rate(),
+        }
     }
 
     /// Whether something in it fulfils a condition.
@@ -351,6 +386,20 @@ impl Row {
             Self::Scalar(_) => 1,
             Self::Vector(_) => 3,
         }
+    }
+
+    /// Whether it is an equation of velocities: one that rates stand in.
+    #[must_use]
+    pub fn is_of_velocities(&self) -> bool {
+        self.term().has(Term::is_rate)
+    }
+
+    /// Whether it asks for velocities other than zero: an equation of velocities with a part that
+    /// holds none, or with a rate by the time itself.
+    #[must_use]
+    pub fn is_driven(&self) -> bool {
+        let changes = |term: &Term| matches!(term, Term::Time | Term::Law { .. });
+        self.is_of_velocities() && (self.term().has(changes) || !self.term().is_homogeneous())
     }
 
     /// What is zero.

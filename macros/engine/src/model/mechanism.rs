@@ -7,7 +7,7 @@ use std::ops::Range;
 use proc_macro2::{Ident, TokenStream};
 
 use super::asked::Asked;
-use super::joint::{ElementDef, Term, Turn};
+use super::joint::{ElementDef, Row, Term, Turn};
 use super::law::{LawTerm, Switch};
 use super::name::Name;
 use super::number::{Number, Symbol, literals};
@@ -440,6 +440,36 @@ impl Model {
     #[must_use]
     pub fn equations(&self, joint: &Element) -> usize {
         self.definition(joint).equations() - joint.dropped.len()
+    }
+
+    /// The rows that are equations of velocities.
+    #[must_use]
+    pub fn velocity_rows(&self) -> Vec<usize> {
+        let mut rows = Vec::new();
+        let mut row = 0;
+        for joint in &self.joints {
+            let mut equation = 0;
+            for definition in &self.definition(joint).rows {
+                let own = equation..equation + definition.equations();
+                equation = own.end;
+                for _ in own.filter(|equation| !joint.dropped.contains(equation)) {
+                    if definition.is_of_velocities() {
+                        rows.push(row);
+                    }
+                    row += 1;
+                }
+            }
+        }
+        rows
+    }
+
+    /// Whether equations of velocities ask for others than zero.
+    #[must_use]
+    pub fn drives_velocities(&self) -> bool {
+        let joints = self.joints.iter();
+        joints
+            .flat_map(|joint| &self.definition(joint).rows)
+            .any(Row::is_driven)
     }
 
     /// The place of each body's first coordinate and first velocity, and the totals.

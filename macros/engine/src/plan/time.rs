@@ -2,6 +2,7 @@
 //! break.
 
 use super::kernels::Kernels;
+use crate::model::Model;
 use crate::symbolic::arena::{Arena, Expr, Input, Node, Stage};
 use crate::symbolic::equations::Kernel;
 
@@ -22,9 +23,13 @@ pub struct ExplicitTime {
 impl ExplicitTime {
     /// Reads it off the kernels of a mechanism.
     #[must_use]
-    pub fn of(kernels: &Kernels) -> Self {
+    pub fn of(kernels: &Kernels, model: &Model) -> Self {
         let mut breaks = Vec::new();
-        for kernel in [&kernels.constraints, &kernels.forces, &kernels.state_rates] {
+        let mut with_time = vec![&kernels.constraints, &kernels.forces, &kernels.state_rates];
+        if !model.velocity_rows().is_empty() {
+            with_time.push(&kernels.constraint_rates);
+        }
+        for kernel in with_time {
             add_breaks(kernel, &mut breaks);
         }
         // They stand behind all other coordinates.
@@ -36,7 +41,7 @@ impl ExplicitTime {
             // No other input stands in constraints than one that changes with time.
             constraints: reads(&kernels.constraints, |input| {
                 matches!(input, Input::Time | Input::Varying(_))
-            }),
+            }) || model.drives_velocities(),
             forces: has_time(&kernels.forces) || has_time(&kernels.state_rates),
             potential: has_time(&kernels.potential_energy)
                 || reads(&kernels.potential_energy, is_state),

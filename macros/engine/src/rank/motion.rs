@@ -127,7 +127,7 @@ impl Constraints {
         let breaks = breaks(&phi, model);
         let initial = tape(&initial);
         let phi = tape(&phi);
-        let is_driven = phi.reads(|input| input == Input::Time);
+        let is_driven = phi.reads(|input| input == Input::Time) || model.drives_velocities();
         let counts = phi.reads(
             |input| matches!(input, Input::Coordinate(place) if place as usize >= layout.coordinates),
         );

@@ -148,9 +148,11 @@ impl Binder<'_> {
                 Box::new(self.vector(arena, a)),
                 Box::new(self.vector(arena, b)),
             ),
-            Term::Spin { from, to } => {
-                VectorExpr::Spin([*from, *to].map(|body| self.element.bodies[body]))
-            }
+            Term::Rate(inner) => VectorExpr::Rate(Box::new(self.vector(arena, inner))),
+            Term::Spin { from, to } => VectorExpr::Spin([
+                from.and_then(|from| self.element.bodies[from]),
+                self.element.bodies[*to],
+            ]),
             Term::Number(_)
             | Term::Scalar(_)
             | Term::Time
@@ -159,7 +161,6 @@ impl Binder<'_> {
             | Term::Direction(..)
             | Term::Angle(_)
             | Term::Initial(_)
-            | Term::Rate(_)
             | Term::Law { .. } => unreachable!("shapes are checked where the definition stands"),
         }
     }

@@ -35,6 +35,7 @@ impl VectorExpr {
                 let (a, b) = (a.value(space, motion), b.value(space, motion));
                 space.cross(Frame::Global, a, b)
             }
+            Self::Rate(inner) => inner.rate(space, motion),
             Self::Spin([from, to]) => {
                 let spin = |(body, sign): (Option<usize>, Expr)| Some((sign, motion.spin[body?]));
                 let spins = [(*to, Arena::ONE), (*from, -Arena::ONE)];
@@ -43,7 +44,7 @@ impl VectorExpr {
         }
     }
 
-    /// The time derivative.
+    /// The time derivative; of what holds rates itself, without the terms of `v'` and `w'`.
     pub fn rate(&self, space: &mut Space, motion: &Motion) -> VectorId {
         match self {
             Self::Fixed(None, _) | Self::Point(None, _) => space.native(Frame::Global, ZERO),
@@ -76,7 +77,9 @@ impl VectorExpr {
                 );
                 space.sum([(Arena::ONE, first), (Arena::ONE, second)])
             }
-            Self::Spin(_) => unreachable!("there is no rate of a rate in the language"),
+            Self::Rate(inner) => inner.bias(space, motion),
+            // (A w)' = A w', since w x w vanishes.
+            Self::Spin(_) => space.native(Frame::Global, ZERO),
         }
     }
 
@@ -116,7 +119,9 @@ impl VectorExpr {
                 let two = space.arena.constant(2.0);
                 space.sum([(Arena::ONE, first), (two, mixed), (Arena::ONE, last)])
             }
-            Self::Spin(_) => unreachable!("there is no rate of a rate in the language"),
+            Self::Rate(_) | Self::Spin(_) => {
+                unreachable!("there is no rate of a rate in the language")
+            }
         }
     }
 
@@ -168,7 +173,9 @@ impl VectorExpr {
                 a.pull_back(space, motion, factor, on_a, gradient);
                 b.pull_back(space, motion, factor, on_b, gradient);
             }
-            Self::Spin(_) => unreachable!("only positions have a gradient in the language"),
+            Self::Rate(_) | Self::Spin(_) => {
+                unreachable!("only positions have a gradient by positions in the language")
+            }
         }
     }
 }
@@ -208,7 +215,7 @@ impl ScalarExpr {
         }
     }
 
-    /// The time derivative.
+    /// The time derivative; of what holds rates itself, without the terms of `v'` and `w'`.
     pub fn rate(&self, space: &mut Space, motion: &Motion) -> Expr {
         match self {
             Self::Constant(_) => Arena::ZERO,
@@ -233,7 +240,7 @@ impl ScalarExpr {
                 space.arena.mul(slope, dx)
             }
             Self::Angle(angle) | Self::Direction(angle) => angle.rate(space, motion),
-            Self::Rate(_) => unreachable!("there is no rate of a rate in the language"),
+            Self::Rate(inner) => inner.bias(space, motion),
             Self::State { place, .. } => motion.states[*place].value(space, motion),
             Self::Side { .. } => Arena::ZERO,
             Self::Select { side, parts } => selected(space, motion, (side, parts), Self::rate),
@@ -321,7 +328,7 @@ impl ScalarExpr {
                 angle.pull_back(space, motion, seed, gradient);
             }
             Self::Rate(_) | Self::Side { .. } | Self::Select { .. } => {
-                unreachable!("only positions have a gradient in the language")
+                unreachable!("only positions have a gradient by positions in the language")
             }
         }
     }

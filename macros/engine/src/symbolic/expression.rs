@@ -17,8 +17,9 @@ pub enum VectorExpr {
     Scaled(Box<ScalarExpr>, Box<VectorExpr>),
     /// A cross product.
     Cross(Box<VectorExpr>, Box<VectorExpr>),
-    /// The angular velocity of the second body against the first, which has no derivative of its
-    /// own.
+    /// The time derivative, in global axes.
+    Rate(Box<VectorExpr>),
+    /// The angular velocity of the second body against the first.
     Spin([Option<usize>; 2]),
 }
 
@@ -43,7 +44,7 @@ pub enum ScalarExpr {
     Direction(Box<AngleExpr>),
     /// An input with its first and second derivative.
     Setpoint([Expr; 3]),
-    /// The time derivative, which has no derivative of its own.
+    /// The time derivative.
     Rate(Box<ScalarExpr>),
     /// The side of an expression that switches.
     Side {

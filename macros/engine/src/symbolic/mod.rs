@@ -8,7 +8,9 @@
 //! Derivatives (`differentiate.rs`) act on vectors, never on components of `p`. A virtual rotation
 //! moves `A s` by `A (dw x s)`; time does the same with `w`. The gradient of a row is a force and
 //! a moment on every body (reverse mode). The `bias` is the second derivative without
-//! accelerations, so `gamma = -bias`. The term `w x (w x s)` is made of the products `w_k w_l`,
+//! accelerations, so `gamma = -bias`. Equations of velocities (`velocities.rs`) are rates
+//! themselves: they have no `Phi`, their rows of `D` are gradients by velocities, and `-gamma` is
+//! their derivative without accelerations. The term `w x (w x s)` is made of the products `w_k w_l`,
 //! which all vectors of a body share. Vectors of a body along one line have one `w x (w x e)`.
 //!
 //! Binding. `expression.rs` has the expressions that are bound to bodies. `bind.rs` replaces formal
@@ -69,3 +71,4 @@ pub mod tape;
 pub mod time;
 pub(crate) mod uses;
 pub mod vector;
+mod velocities;

@@ -8,7 +8,7 @@ use super::fixed::{Copies, number, triple};
 use super::kept::kept;
 use super::motion::{Gradient, Motion};
 use super::rotation::{complete, homogeneous_rotation, normalised_rotation, own_cofactors};
-use super::vector::{Frame, Space, Triple, ZERO};
+use super::vector::{Frame, Space, Triple, VectorId, ZERO};
 use crate::model::mechanism::Layout;
 use crate::model::{BodyKind, ElementKind, Model, Row, Term};
 
@@ -39,6 +39,8 @@ pub struct Constrained {
     pub row: usize,
     /// The equations.
     pub constraint: Constraint,
+    /// Whether they are equations of velocities, so that nothing of them is left at rest.
+    pub of_velocities: bool,
 }
 
 impl Constrained {
@@ -249,11 +251,13 @@ impl Scene {
                     Row::Scalar(term) => Constraint::Scalar(binder.scalar(arena, term)),
                     Row::Vector(term) => Constraint::Vector(binder.vector(arena, term)),
                 };
+                let of_velocities = definition.is_of_velocities();
                 for constraint in kept(arena, constraint, place_in_definition, element) {
                     let constrained = Constrained {
                         joint: place,
                         row,
                         constraint,
+                        of_velocities,
                     };
                     row += constrained.equations();
                     constraints.push(constrained);
@@ -408,10 +412,19 @@ impl Scene {
             constraints,
             ..
         } = self;
-        match &constraints[constraint].constraint {
+        let Constrained {
+            constraint,
+            of_velocities,
+            ..
+        } = &constraints[constraint];
+        match constraint {
             Constraint::Scalar(scalar) => {
                 let mut gradient = empty();
-                scalar.pull_back(space, motion, Arena::ONE, &mut gradient);
+                if *of_velocities {
+                    scalar.pull_back_rates(space, motion, Arena::ONE, &mut gradient);
+                } else {
+                    scalar.pull_back(space, motion, Arena::ONE, &mut gradient);
+                }
                 vec![gradient]
             }
             Constraint::Vector(vector) => [0, 1, 2]
@@ -420,7 +433,12 @@ impl Scene {
                     unit[k] = Arena::ONE;
                     let covector = space.native(frame, unit);
                     let mut gradient = empty();
-                    vector.pull_back(space, motion, Arena::ONE, covector, &mut gradient);
+                    if *of_velocities {
+                        let factor = Arena::ONE;
+                        vector.pull_back_rates(space, motion, factor, covector, &mut gradient);
+                    } else {
+                        vector.pull_back(space, motion, Arena::ONE, covector, &mut gradient);
+                    }
                     gradient
                 })
                 .into(),
@@ -428,7 +446,7 @@ impl Scene {
     }
 
     /// `value * Phi + rate * Phi' + bias * (Phi'' without accelerations)` of a constraint, in the
-    /// given axes.
+    /// given axes. Equations of velocities are `Phi'` as they are written, and have no `Phi`.
     pub fn combination(
         &mut self,
         constraint: usize,
@@ -441,50 +459,71 @@ impl Scene {
             constraints,
             ..
         } = self;
+        let Constrained {
+            constraint,
+            of_velocities,
+            ..
+        } = &constraints[constraint];
         let wanted = |factor: Expr| factor != Arena::ZERO;
-        match &constraints[constraint].constraint {
+        match constraint {
             Constraint::Scalar(scalar) => {
+                type Of = fn(&ScalarExpr, &mut Space, &Motion) -> Expr;
+                let terms: [(Expr, Of); 3] = if *of_velocities {
+                    let (of_rate, of_value): (Of, Of) = (ScalarExpr::rate, ScalarExpr::value);
+                    [(bias, of_rate), (rate, of_value), (Arena::ZERO, of_value)]
+                } else {
+                    [
+                        (bias, ScalarExpr::bias),
+                        (rate, ScalarExpr::rate),
+                        (value, ScalarExpr::value),
+                    ]
+                };
                 let mut sum = Arena::ZERO;
-                let mut add = |space: &mut Space, factor: Expr, term: Expr| {
+                for (factor, of) in terms.into_iter().filter(|(factor, _)| wanted(*factor)) {
+                    let term = of(scalar, space, motion);
                     let product = space.arena.mul(factor, term);
                     sum = space.arena.add(sum, product);
-                };
-                if wanted(bias) {
-                    let term = scalar.bias(space, motion);
-                    add(space, bias, term);
-                }
-                if wanted(rate) {
-                    let term = scalar.rate(space, motion);
-                    add(space, rate, term);
-                }
-                if wanted(value) {
-                    let term = scalar.value(space, motion);
-                    add(space, value, term);
                 }
                 vec![sum]
             }
             Constraint::Vector(vector) => {
-                let mut terms = Vec::new();
-                if wanted(bias) {
-                    terms.push((bias, vector.bias(space, motion)));
-                }
-                if wanted(rate) {
-                    terms.push((rate, vector.rate(space, motion)));
-                }
-                if wanted(value) {
-                    terms.push((value, vector.value(space, motion)));
-                }
+                type Of = fn(&VectorExpr, &mut Space, &Motion) -> VectorId;
+                let terms: [(Expr, Of); 3] = if *of_velocities {
+                    let (of_rate, of_value): (Of, Of) = (VectorExpr::rate, VectorExpr::value);
+                    [(bias, of_rate), (rate, of_value), (Arena::ZERO, of_value)]
+                } else {
+                    [
+                        (bias, VectorExpr::bias),
+                        (rate, VectorExpr::rate),
+                        (value, VectorExpr::value),
+                    ]
+                };
+                let terms = terms.into_iter().filter(|(factor, _)| wanted(*factor));
+                let terms: Vec<_> = terms
+                    .map(|(factor, of)| (factor, of(vector, space, motion)))
+                    .collect();
                 let sum = space.sum(terms);
                 space.components(sum, frame).into()
             }
         }
     }
 
+    /// The vector that a constraint between positions holds at zero.
+    fn between_vectors(&self, constraint: usize) -> Option<&VectorExpr> {
+        match &self.constraints[constraint] {
+            Constrained {
+                constraint: Constraint::Vector(vector),
+                of_velocities: false,
+                ..
+            } => Some(vector),
+            _ => None,
+        }
+    }
+
     /// The point on a body that a constraint between vectors speaks of, from the centre of mass.
     #[must_use]
     pub fn point_on(&self, constraint: usize, body: usize) -> Option<Triple> {
-        let Constraint::Vector(VectorExpr::Sum(terms)) = &self.constraints[constraint].constraint
-        else {
+        let VectorExpr::Sum(terms) = self.between_vectors(constraint)? else {
             return None;
         };
         let mut points = terms.iter().filter_map(|(_, term)| match term {
@@ -503,8 +542,7 @@ impl Scene {
     /// body or of the ground: the other body and the point there, from its centre of mass.
     #[must_use]
     pub fn joins(&self, constraint: usize, body: usize) -> Option<Option<(usize, Triple)>> {
-        let Constraint::Vector(VectorExpr::Sum(terms)) = &self.constraints[constraint].constraint
-        else {
+        let VectorExpr::Sum(terms) = self.between_vectors(constraint)? else {
             return None;
         };
         let (mut own, mut others) = (Vec::new(), Vec::new());

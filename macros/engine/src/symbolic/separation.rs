@@ -75,7 +75,10 @@ fn each_scalar<'a>(effect: &'a Effect, visit: &mut impl FnMut(&'a ScalarExpr)) {
 /// The factors of a vector.
 fn factors<'a>(vector: &'a VectorExpr, visit: &mut impl FnMut(&'a ScalarExpr)) {
     match vector {
-        VectorExpr::Fixed(..) | VectorExpr::Point(..) | VectorExpr::Spin(_) => {}
+        VectorExpr::Fixed(..)
+        | VectorExpr::Point(..)
+        | VectorExpr::Rate(_)
+        | VectorExpr::Spin(_) => {}
         VectorExpr::Sum(terms) => terms.iter().for_each(|(_, term)| factors(term, visit)),
         VectorExpr::Scaled(factor, inner) => {
             visit(factor);
@@ -106,37 +109,18 @@ fn parts(scalar: &ScalarExpr) -> Vec<&ScalarExpr> {
     }
 }
 
-/// Whether it depends on a rate: the direction of a velocity is that of friction, which holds.
-fn has_rate(scalar: &ScalarExpr) -> bool {
-    match scalar {
-        ScalarExpr::Rate(_) => true,
-        ScalarExpr::Dot(a, b) => has_spin(a) || has_spin(b),
-        _ => parts(scalar).into_iter().any(has_rate),
-    }
-}
-
-/// The same of a vector.
-fn has_spin(vector: &VectorExpr) -> bool {
-    match vector {
-        VectorExpr::Spin(_) => true,
-        VectorExpr::Fixed(..) | VectorExpr::Point(..) => false,
-        VectorExpr::Sum(terms) => terms.iter().any(|(_, term)| has_spin(term)),
-        VectorExpr::Scaled(factor, inner) => has_rate(factor) || has_spin(inner),
-        VectorExpr::Cross(a, b) => has_spin(a) || has_spin(b),
-    }
-}
-
-/// What stands under a root, if it is the square of a separation.
+/// What stands under a root, if it is the square of a separation. The direction of a velocity is
+/// that of friction, which holds.
 fn under(length: &ScalarExpr) -> Option<&ScalarExpr> {
     let ScalarExpr::Function(Function::SquareRoot, under) = length else {
         return None;
     };
     let is_square = |term: &ScalarExpr| match term {
-        ScalarExpr::Product(a, b) => a == b && !has_rate(a),
+        ScalarExpr::Product(a, b) => a == b && !a.has_rate(),
         _ => false,
     };
     match &**under {
-        ScalarExpr::Dot(a, b) if a == b && !has_spin(a) => Some(under),
+        ScalarExpr::Dot(a, b) if a == b && !a.has_rate() => Some(under),
         ScalarExpr::Sum(terms) if terms.len() <= 3 => terms
             .iter()
             .all(|(factor, term)| *factor == Arena::ONE && is_square(term))

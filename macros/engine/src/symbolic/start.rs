@@ -43,7 +43,7 @@ pub(super) fn vector(arena: &mut Arena, model: &Model, expr: &VectorExpr) -> Tri
             let (a, b) = (vector(arena, model, a), vector(arena, model, b));
             cross(arena, a, b)
         }
-        VectorExpr::Spin(_) => {
+        VectorExpr::Rate(_) | VectorExpr::Spin(_) => {
             unreachable!("the language refuses rates in the reference configuration")
         }
     }

@@ -5,7 +5,7 @@ mod sizes;
 mod stiffness;
 
 pub(crate) use sizes::Sizes;
-pub(crate) use stiffness::{compliances_at, evened, stiffness_at};
+pub(crate) use stiffness::{compliances_at, evened, stiffness_at, yield_velocities};
 
 use stiffness::{compliances, felt, stiffness, yields};
 

@@ -18,6 +18,16 @@ pub(crate) fn compliances_at<S: Real, M: Mechanism>(
     compliances::<S, M>(stiffness_at::<S, M>(constants, time, state), part)
 }
 
+/// Lets equations of velocities yield to anything, since they do not hold positions.
+pub(crate) fn yield_velocities<S: Real, M: Mechanism>(compliances: &mut M::Multipliers<S>) {
+    for &row in M::REPORT.velocity_rows {
+        if let Some(compliance) = compliances.as_mut_slice().get_mut(row) {
+            // Those of the other rows are parts of what the rows yield; at the least 64 EPSILON.
+            *compliance = compliance.quotient(S::EPSILON * S::EPSILON);
+        }
+    }
+}
+
 /// The diagonal of `D M^-1 D^T` at a time and configuration, as [`Rows`](super::Rows) have it.
 pub(crate) fn stiffness_at<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,

@@ -19,7 +19,6 @@ holonom::joint! {
         initial(length * time);
         initial(angle(i, j, axis), 1.0);
         rate(length);
-        angular_velocity(i, j);
         atan2(length);
         atan2(i.axis, length);
         dot(i.axis, j.axis) - asin(2.0);
