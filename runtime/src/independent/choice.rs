@@ -221,7 +221,14 @@ pub(super) fn places<M: JointCoordinates, const N: usize>(
     chosen: impl Chosen<M, N>,
 ) -> Result<[usize; N], Fault> {
     configurations_alone::<M>()?;
-    let degrees_of_freedom = degrees_of_freedom::<M>();
+    distinct(chosen, degrees_of_freedom::<M>())
+}
+
+/// The places of as many rates as there are degrees of freedom of some kind, each once.
+pub(super) fn distinct<M: JointCoordinates, const N: usize>(
+    chosen: impl Chosen<M, N>,
+    degrees_of_freedom: usize,
+) -> Result<[usize; N], Fault> {
     if N != degrees_of_freedom {
         return Err(Fault::Analysis(AnalysisFault::ChosenCount {
             chosen: N,

@@ -66,6 +66,7 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
             time,
             sizes: M::ClosingMultipliers::zeros(),
             resolved: 0.0,
+            leaves_velocities: false,
         };
         if M::JOINT_REPORT.closing.is_empty() {
             return equations;

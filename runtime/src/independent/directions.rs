@@ -159,14 +159,8 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
                 None => {}
             }
         }
-        let still = moved::<M, S, K>(state, |_| [S::zero(); K]);
         let here = |equations: &Equations<M, N, Forward<S, K>>, ways: &_| {
-            // The rates of coordinates are linear in velocities, and these begin at zero.
-            let mut turned = still;
-            put_velocities::<M, Forward<S, K>>(ways, &mut turned);
-            let slope =
-                rates_of_motion::<Forward<S, K>, M>(&equations.constants, equations.time, &turned);
-            moved::<M, S, K>(state, |place| slope.element(place).derivatives())
+            displaced::<M, S, K>((&equations.constants, equations.time), state, ways)
         };
         if is_varied {
             equations.constants = M::prepare_joints(&parameters);
@@ -182,7 +176,7 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
         let mut there = if is_moved {
             here(&equations, &ways)
         } else {
-            still
+            moved::<M, S, K>(state, |_| [S::zero(); K])
         };
         // The start of a state of the user's own is its value here.
         for (lane, direction) in directions.iter().enumerate() {
@@ -258,6 +252,19 @@ impl<M: JointRates, const N: usize, S: Real> IndependentCoordinates<M, N, S> {
     }
 }
 
+/// A state displaced along directions, by what that is to the joints.
+pub(super) fn displaced<M: JointRates, S: Real, const K: usize>(
+    (constants, time): (&M::JointConstants<Forward<S, K>>, Forward<S, K>),
+    state: &M::JointState<S>,
+    ways: &M::JointVelocities<Forward<S, K>>,
+) -> M::JointState<Forward<S, K>> {
+    // The rates of coordinates are linear in velocities, and these begin at zero.
+    let mut turned = moved::<M, S, K>(state, |_| [S::zero(); K]);
+    put_velocities::<M, Forward<S, K>>(ways, &mut turned);
+    let slope = rates_of_motion::<Forward<S, K>, M>(constants, time, &turned);
+    moved::<M, S, K>(state, |place| slope.element(place).derivatives())
+}
+
 /// Lets a number vary along a direction, beside those along which it does.
 pub(crate) fn vary<S: Scalar, const K: usize>(number: Option<&mut Forward<S, K>>, lane: usize) {
     if let Some(number) = number {
@@ -266,7 +273,7 @@ pub(crate) fn vary<S: Scalar, const K: usize>(number: Option<&mut Forward<S, K>>
 }
 
 /// Adds to the derivative along a direction.
-fn add<S: Scalar, const K: usize>(number: &mut Forward<S, K>, lane: usize, slope: S) {
+pub(super) fn add<S: Scalar, const K: usize>(number: &mut Forward<S, K>, lane: usize, slope: S) {
     if let Some(place) = number.derivative_mut(lane) {
         *place = *place + slope;
     }

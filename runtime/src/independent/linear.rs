@@ -383,7 +383,7 @@ fn finite<const N: usize, const K: usize, const P: usize, S: Real>(
 }
 
 /// Writes what the rows have in a lane as a column, without a place where it could panic.
-fn put<S: Scalar, const R: usize, const C: usize, const K: usize>(
+pub(super) fn put<S: Scalar, const R: usize, const C: usize, const K: usize>(
     matrix: &mut SMatrix<S, R, C>,
     column: usize,
     rows: &[[S; K]; R],
@@ -398,7 +398,7 @@ fn put<S: Scalar, const R: usize, const C: usize, const K: usize>(
 
 /// What a rotation at these rates does to the rate of a turn along a ball's axes, which is that of
 /// no coordinate: `-w x` the turn. Zero of other rates.
-fn turned<M: JointRates, S: Scalar>(
+pub(super) fn turned<M: JointRates, S: Scalar>(
     place: usize,
     rates: &M::JointVelocities<S>,
     turn: &M::JointVelocities<S>,

@@ -14,6 +14,7 @@
 //! - `linear.rs`, `linearised.rs`: linearisation and its result; `modes.rs`: natural motions,
 //!   over `spectrum.rs` and `jacobi.rs`;
 //!   `lqr.rs`: the gain of a regulator.
+//! - `nonholonomic.rs`: more coordinates than rates, where joints roll.
 //! - `equilibrium.rs`: states without accelerations, over `balance.rs`; `trim.rs`: with inputs and
 //!   parameters as unknowns (`varied.rs`). `switched.rs`: states on the switch of a law.
 //! - `continuation.rs`: equilibria along a parameter; `walk.rs`: points and steps, `folds.rs`:
@@ -50,6 +51,7 @@ mod lqr;
 #[cfg(feature = "std")]
 mod modes;
 mod momentum;
+mod nonholonomic;
 mod partition;
 mod places;
 mod points;
@@ -84,6 +86,7 @@ pub use linearised::{Linearised, to_discrete};
 pub use lqr::discrete_lqr;
 #[cfg(feature = "std")]
 pub use modes::Mode;
+pub use nonholonomic::{LinearMotion, NonholonomicCoordinates, NonholonomicExt};
 pub use regressor::INERTIAL_PARAMETERS;
 pub use varied::Varied;
 #[cfg(feature = "std")]
@@ -134,6 +137,8 @@ struct Equations<M: JointRates, const N: usize, S: Scalar> {
     sizes: M::ClosingMultipliers<S>,
     /// The largest part of the size of a row that its terms do not resolve.
     resolved: f64,
+    /// Whether the chosen ones are coordinates, which equations of velocities leave free.
+    leaves_velocities: bool,
 }
 
 /// Coordinates by handle, by a method of the mechanism.

@@ -79,6 +79,15 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
             M::closing_rows(&self.constants, self.time, state);
         let width = partition.bias.as_slice().len();
         let height = gamma.as_slice().len();
+        if self.leaves_velocities {
+            let rows = jacobian.as_mut_slice().chunks_mut(width.max(1));
+            for (row, entries) in rows.enumerate() {
+                let known = M::JOINT_REPORT.rows.get(row).copied().flatten();
+                if known.is_some_and(|row| M::REPORT.velocity_rows.contains(&row)) {
+                    entries.fill(S::zero());
+                }
+            }
+        }
         if let Some((row, by)) = opened {
             values = M::ClosingMultipliers::zeros();
             set(&mut values, row, -by);

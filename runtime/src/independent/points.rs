@@ -137,6 +137,7 @@ impl<M: JointRates, const N: usize, S: Scalar> Equations<M, N, S> {
             length: Forward::fixed(self.length),
             sizes: crate::forward::lifted(&self.sizes),
             resolved: self.resolved,
+            leaves_velocities: self.leaves_velocities,
         }
     }
 }

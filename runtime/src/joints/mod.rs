@@ -18,6 +18,9 @@
 //! | [`Screw`] | i, j | 5 | rotation and translation in proportion |
 //! | [`Gear`] | i, j, carrier k | 1 | two angles in proportion |
 //! | [`RackAndPinion`] | pinion i, rack j, carrier k | 1 | an angle and a displacement in proportion |
+//! | [`RollingWheel`] | plane i, wheel j | 3, of which 2 of velocities | leaning, steering and rolling |
+//! | [`RollingBall`] | plane i, ball j | 3, of which 2 of velocities | rolling and spinning |
+//! | [`KnifeEdge`] | i, j | 1 of velocities | all but a movement sideways |
 //! | [`Perpendicular1`], [`Perpendicular2`] | i, j | 1 | constraints between two vectors |
 //! | [`Parallel1`], [`Parallel2`] | i, j | 2 | constraints between two vectors |
 //! | [`AngleDriver`], [`DistanceDriver`], [`DisplacementDriver`] | i, j | 1 | a coordinate as a function of time |
@@ -42,6 +45,7 @@ mod planar;
 mod points;
 mod prismatic;
 mod revolute;
+mod rolling;
 mod screw;
 mod spherical;
 mod universal;
@@ -58,6 +62,7 @@ pub use planar::*;
 pub use points::*;
 pub use prismatic::*;
 pub use revolute::*;
+pub use rolling::*;
 pub use screw::*;
 pub use spherical::*;
 pub use universal::*;
