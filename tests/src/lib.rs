@@ -8,9 +8,12 @@ use holonom::{
     mechanism::{Absolute, Relative},
 };
 
-/// Whether nothing is left out of sweeps and long runs (feature `exhaustive`), or some of each is
+/// Whether nothing is left out of sweeps and long runs (`HOLONOM_EXHAUSTIVE=1`), or some of each is
 /// tried.
-pub const IS_EXHAUSTIVE: bool = cfg!(feature = "exhaustive");
+#[must_use]
+pub fn is_exhaustive() -> bool {
+    std::env::var_os("HOLONOM_EXHAUSTIVE").is_some()
+}
 
 /// Methods that run a mechanism by a formulation in both coordinates.
 pub trait RunsBoth<M, F, S = f64>:

@@ -9,7 +9,7 @@ use holonom_assembler::saddle::Coefficients;
 use holonom_assembler::states::Spread;
 
 use crate::comparison::{DOUBLE, SOLUTION, Worst, distance};
-use crate::scene::{STATES, Scene, constants, dense, off, state, values};
+use crate::scene::{Scene, constants, dense, off, state, states_to_try, values};
 use crate::solutions::{Reference, evaluated};
 
 /// Near the constraints, `|p|` up to this much from 1.
@@ -28,7 +28,7 @@ fn of_kernels<M: Scene>(norm: f64) -> f64 {
     let scene = M::read_as(Orientation::Raw);
     let constants = constants::<f64, M>();
     let mut worst = Worst::default();
-    for x in off(&scene, STATES, 12, drifted(norm)) {
+    for x in off(&scene, states_to_try(), 12, drifted(norm)) {
         let x = x.as_slice();
         let state = state::<f64, M>(x);
         let jacobian = M::jacobian(&constants, 0.0, &state);
@@ -75,7 +75,7 @@ fn kernels_take_p_as_it_is<M: Scene>() {
 fn evaluations<M: Scene, T: Terms>(what: &str, coefficients: Coefficients) {
     let scene = M::read_as(Orientation::Normalised);
     let mut worst = Worst::default();
-    for x in off(&scene, STATES, 13, drifted(0.05)) {
+    for x in off(&scene, states_to_try(), 13, drifted(0.05)) {
         let reference = Reference::new(&scene, coefficients, x.as_slice());
         let (solution, rates) = evaluated::<f64, M, T>(coefficients, x.as_slice());
         let deviation = reference.deviation(&solution, SOLUTION);

@@ -62,6 +62,4 @@ mod symbols;
 mod textbook;
 mod user_axes;
 
-// What leaves nothing out is optimised, and takes no code that is not.
-#[cfg(not(feature = "exhaustive"))]
 use holonom_fixtures as _;

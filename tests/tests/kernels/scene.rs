@@ -4,7 +4,7 @@ use holonom::{Mechanism, MechanismExt, Real, Scalar, StateParts, state::Array};
 use holonom_assembler::assembler::Assembler;
 use holonom_assembler::bodies::Orientation;
 use holonom_assembler::states::{Spread, generator, make_consistent, moved};
-use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::is_exhaustive;
 use nalgebra::{DMatrix, DVector};
 
 /// A mechanism that is also described for the run-time assembler.
@@ -80,7 +80,9 @@ pub(crate) fn dense<S: Real, M: Mechanism>(blocks: &[S]) -> DMatrix<f64> {
 }
 
 /// How many states of a kind are tried.
-pub(crate) const STATES: usize = if IS_EXHAUSTIVE { 300 } else { 30 };
+pub(crate) fn states_to_try() -> usize {
+    if is_exhaustive() { 300 } else { 30 }
+}
 
 /// States on the constraints, in position and velocity: a walk that starts in the initial
 /// configuration and gets far from it without leaving its branch, each corrected by the assembler's

@@ -22,7 +22,7 @@ use holonom_assembler::saddle::Coefficients;
 use nalgebra::{DMatrix, DVector};
 
 use crate::comparison::{SOLUTION, Worst, distance, tolerance};
-use crate::scene::{STATES, Scene, consistent, constants, rounded, state, values, violated};
+use crate::scene::{Scene, consistent, constants, rounded, state, states_to_try, values, violated};
 
 /// `(u', lambda)` of the fused evaluation, and the rates of the coordinates.
 pub(crate) fn evaluated<S: Real, M: Scene, T: Terms>(
@@ -148,8 +148,8 @@ fn condition_from_below(matrix: &DMatrix<f64>) -> f64 {
 /// The states of both sets, as the number type sees them.
 fn states<M: Scene, S: Real>() -> Vec<Vec<f64>> {
     let scene = M::assembler();
-    let mut states = consistent(&scene, STATES, 3);
-    states.extend(violated(&scene, STATES, 4));
+    let mut states = consistent(&scene, states_to_try(), 3);
+    states.extend(violated(&scene, states_to_try(), 4));
     states.iter().map(|x| rounded::<S>(x.as_slice())).collect()
 }
 

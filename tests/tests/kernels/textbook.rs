@@ -10,7 +10,7 @@ use holonom_assembler::bodies::Orientation;
 use holonom_assembler::formulation::{self, Evaluator};
 
 use crate::comparison::{Worst, distance};
-use crate::scene::{STATES, Scene, consistent, flat, state, values, violated};
+use crate::scene::{Scene, consistent, flat, state, states_to_try, values, violated};
 
 /// Where both forms keep their digits.
 const SOFT: f64 = 1e2;
@@ -39,8 +39,8 @@ fn deviation<M: Scene, F: Formulation<f64>>(
         .absolute_coordinates();
     let mut evaluator = Evaluator::new(scene.clone(), textbook);
     let (mut accelerations, mut multipliers) = (Worst::default(), Worst::default());
-    let mut states = consistent(&scene, STATES, 5);
-    states.extend(violated(&scene, STATES, 6));
+    let mut states = consistent(&scene, states_to_try(), 5);
+    states.extend(violated(&scene, states_to_try(), 6));
     for x in states {
         let x = x.as_slice();
         let (evaluation, _) = dynamics

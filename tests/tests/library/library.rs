@@ -78,7 +78,7 @@ macro_rules! entry {
             equations: $equations,
             placements: Vec::from([
                 placement! { param [i j] [i, j] [I, J] $joint $attributes },
-                #[cfg(feature = "exhaustive")]
+                #[cfg(feature = "placements")]
                 placement! { param [i] [i, ground] [I, Ground] $joint $attributes },
                 placement! { literal [j] [ground, j] [Ground, J] $joint $attributes },
             ]),
@@ -101,9 +101,9 @@ macro_rules! entry {
             equations: $equations,
             placements: Vec::from([
                 placement! { param [i j k] [i, j, k] [I, J, K] $joint $attributes },
-                #[cfg(feature = "exhaustive")]
+                #[cfg(feature = "placements")]
                 placement! { param [j k] [ground, j, k] [Ground, J, K] $joint $attributes },
-                #[cfg(feature = "exhaustive")]
+                #[cfg(feature = "placements")]
                 placement! { param [i k] [i, ground, k] [I, Ground, K] $joint $attributes },
                 placement! { literal [i j] [i, j, ground] [I, J, Ground] $joint $attributes },
             ]),

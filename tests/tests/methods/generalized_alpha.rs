@@ -13,7 +13,7 @@ use holonom_models::{
     DrivenSliderCrank, FlyballGovernor, FourBar, HeavyTop, RodPendulum, SliderCrank,
 };
 use holonom_study::pendulum::{RigidPendulum, from_vertical, wrapped};
-use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::is_exhaustive;
 
 use crate::pendulum::{SWINGS, final_swing};
 use crate::singular::Arm;
@@ -38,7 +38,7 @@ fn is_second([coarse, fine, finest]: [f64; 3]) {
 #[test]
 fn it_has_order_2_on_the_pendulum_with_any_damping() {
     let all = [0.5, 0.0, 0.8, 1.0];
-    for &rho in &all[..if IS_EXHAUSTIVE { all.len() } else { 1 }] {
+    for &rho in &all[..if is_exhaustive() { all.len() } else { 1 }] {
         let swing = SWINGS[1];
         is_second(orders(halved(1.0 / 512.0), |step| {
             let method = GeneralizedAlpha::every(step).spectral_radius(rho);
@@ -160,7 +160,7 @@ fn positions_and_velocities_are_on_the_constraints() {
 #[test]
 fn without_damping_the_energy_of_a_long_run_does_not_drift() {
     let rod = RodPendulum::default();
-    let duration = if IS_EXHAUSTIVE { 1000.0 } else { 200.0 };
+    let duration = if is_exhaustive() { 1000.0 } else { 200.0 };
     let run = |rho| {
         let mut windows = [0.0_f64; 2];
         let mut start: Option<f64> = None;

@@ -4,7 +4,7 @@ use holonom::prelude::*;
 use holonom::{Runs, Warning};
 use holonom_models::{RodPendulum, SimplePendulum};
 
-use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::is_exhaustive;
 
 /// A body that nothing holds, at 20 rad/s about a principal axis.
 #[derive(Mechanism)]
@@ -47,7 +47,7 @@ fn ten_thousand_seconds_of_a_pendulum_are_warned_of() {
     let rod = RodPendulum::default();
     let ode45 = DormandPrince::<f64>::default();
     // All of them lose the phase of thirty thousand radians at 1e-6.
-    if IS_EXHAUSTIVE {
+    if is_exhaustive() {
         for projected in [false, true] {
             assert!(long(&rod, (StandardLagrange, ode45, projected), 1e4).0);
             assert!(long(&rod, (Baumgarte::default(), ode45, projected), 1e4).0);
@@ -71,7 +71,7 @@ fn what_turns_evenly_is_not_warned_of() {
     let (warned, drift) = long(
         &Spinning::default(),
         (StandardLagrange, DormandPrince::default(), false),
-        if IS_EXHAUSTIVE { 1e4 } else { 1e3 },
+        if is_exhaustive() { 1e4 } else { 1e3 },
     );
     assert!(!warned && drift < 1e-12);
 }
@@ -86,7 +86,7 @@ fn a_tight_run_is_trusted() {
     });
     let mut simulation = Simulation::new(&rod, Baumgarte::default(), tight);
     simulation = simulation.projection(Projection::default());
-    let duration = if IS_EXHAUSTIVE { 1e3 } else { 1e2 };
+    let duration = if is_exhaustive() { 1e3 } else { 1e2 };
     let report = simulation
         .run(0.0..=duration, every(1.0), |_| ControlFlow::Continue(()))
         .expect("nothing stops it");
@@ -115,7 +115,7 @@ fn what_single_precision_cannot_tell_is_warned_of() {
     println!("{longer}");
     let mut longer = longer.into_iter();
     assert!(longer.any(|warning| matches!(warning, Warning::LongRun { .. })));
-    if !IS_EXHAUSTIVE {
+    if !is_exhaustive() {
         return;
     }
     let long = warnings(1e4);

@@ -7,7 +7,7 @@ use holonom::joints::{Distance, PointOnLine, Prismatic, Revolute};
 use holonom::prelude::*;
 use nalgebra::Vector3;
 
-use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::is_exhaustive;
 
 /// A rod on a hinge.
 #[derive(Mechanism)]
@@ -159,7 +159,7 @@ fn sweep<M: Scaled, F: Formulation<f64>>(method: F, judge: Vector3<f64>) {
     let (mut right, mut warned, mut refused) = (0, 0, 0);
     let sizes = [1e-6, 1.0, 1e3, 1e-3];
     let masses = [1e-6, 1.0, 1e6, 1e-3, 1e3];
-    let (sizes, masses) = if IS_EXHAUSTIVE {
+    let (sizes, masses) = if is_exhaustive() {
         (&sizes[..], &masses[..])
     } else {
         (&sizes[..3], &masses[..3])

@@ -6,7 +6,7 @@ use holonom::RadauIIA;
 use holonom::error::StepFault;
 use holonom::prelude::*;
 use holonom_models::FlyballGovernor;
-use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::is_exhaustive;
 
 use super::{at_times, simpson, tight};
 
@@ -37,7 +37,7 @@ fn governs<F: Formulation<f64>>(method: F) {
         method,
         0.5,
         // Explicit steps are short: three hundred thousand to the end.
-        &TIMES[..if IS_EXHAUSTIVE { TIMES.len() } else { 2 }],
+        &TIMES[..if is_exhaustive() { TIMES.len() } else { 2 }],
         |place, sample| {
             let height = (sample.pose(handles.slider).position.z - HEIGHT[place]).abs();
             println!("{height:e} m at {} s", sample.time());

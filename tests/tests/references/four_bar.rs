@@ -3,7 +3,7 @@
 use holonom::prelude::*;
 use holonom::{BodyHandle, JointCoordinates, Runs};
 use holonom_models::{DoubleFourBar, FourBar};
-use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::is_exhaustive;
 use nalgebra::Vector3;
 
 use super::{at_times, change_of_energy, tight};
@@ -146,7 +146,7 @@ fn passes<M: Mechanism>(model: &M, pin: (BodyHandle<M>, [f64; 4])) {
     // Some stages fall upon the lines, where rates are those of a penalty: with an error of their
     // own, but on the right way.
     let all = [4e-3, 2e-3, 1.1e-3, 7e-4, 3.3e-4];
-    for &step in &all[..if IS_EXHAUSTIVE { all.len() } else { 2 }] {
+    for &step in &all[..if is_exhaustive() { all.len() } else { 2 }] {
         let steps = Rk4::every(step);
         for [position, velocity, _] in [
             five_turns(model, pin, augmented, steps, corrected),

@@ -3,7 +3,7 @@
 use holonom::error::StepFault;
 use holonom::prelude::*;
 use holonom_models::HeavyChain;
-use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::is_exhaustive;
 use nalgebra::Vector3;
 
 use super::{at_times, change_of_energy};
@@ -25,7 +25,7 @@ fn the_bob_swings_as_its_reference() {
     /// m.
     const ASKED: f64 = 1e-9;
     swings(StandardLagrange, ASKED);
-    if IS_EXHAUSTIVE {
+    if is_exhaustive() {
         swings(Baumgarte::default(), ASKED);
     }
 }
@@ -33,7 +33,7 @@ fn the_bob_swings_as_its_reference() {
 #[test]
 fn the_bob_swings_with_coefficients_that_follow_from_its_mass() {
     let chain = HeavyChain::default();
-    if IS_EXHAUSTIVE {
+    if is_exhaustive() {
         swings(Baumgarte::of(&chain).expect("finite"), 1e-9);
     }
     swings(AugmentedLagrangian::of(&chain).expect("finite"), 1e-9);

@@ -6,8 +6,8 @@ use holonom::prelude::*;
 use holonom_models::QuintupleFourBar;
 use holonom_models::problems::QuintupleParallelogram;
 use holonom_study::trade::Problem;
-use holonom_tests::IS_EXHAUSTIVE;
 use holonom_tests::RunsBoth;
+use holonom_tests::is_exhaustive;
 use nalgebra::Vector3;
 
 use super::{change_of_energy, tight};
@@ -67,7 +67,7 @@ fn error<F: Formulation<f64>, I: RunsBoth<QuintupleFourBar, F>>(
 
 /// The first of these, or all.
 fn tried<T>(all: &[T]) -> &[T] {
-    &all[..if IS_EXHAUSTIVE { all.len() } else { 1 }]
+    &all[..if is_exhaustive() { all.len() } else { 1 }]
 }
 
 /// By bodies and by joints.
@@ -115,7 +115,7 @@ fn an_augmented_lagrangian_passes_with_a_larger_alpha() {
         ..default
     };
     for &method in tried(&[larger, longer]) {
-        if IS_EXHAUSTIVE {
+        if is_exhaustive() {
             let found = error(false, method, tight()).expect("converges");
             assert!(found <= 1e-7, "{found:e}");
         }

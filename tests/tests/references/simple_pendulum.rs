@@ -2,7 +2,7 @@
 
 use holonom::prelude::*;
 use holonom_models::SimplePendulum;
-use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::is_exhaustive;
 use nalgebra::Vector3;
 
 use super::{at_times, change_of_energy, difference_after};
@@ -86,7 +86,7 @@ fn it_is_where_it_should_be_after_long_runs() {
     let handles = SimplePendulum::HANDLES;
     let model = SimplePendulum::default();
     let times = LATER.map(|(time, _)| time);
-    let times = &times[..if IS_EXHAUSTIVE { times.len() } else { 1 }];
+    let times = &times[..if is_exhaustive() { times.len() } else { 1 }];
     at_times(
         &model,
         Baumgarte::default(),

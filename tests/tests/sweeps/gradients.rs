@@ -6,7 +6,7 @@ use holonom::prelude::*;
 use holonom::{Heun, JointCoordinates, Rk4, Sample, Warning};
 use holonom_tests::RunsBoth;
 
-use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::is_exhaustive;
 
 /// A shaft that falls over until it points against the other, and on.
 #[derive(Mechanism)]
@@ -111,7 +111,7 @@ fn sweep<M: JointCoordinates, F: Formulation<f64>>(
         for is_projected in [false, true] {
             let how = (is_projected, by_joints);
             let run = (duration, joint);
-            for exponent in (4..=11).step_by(if IS_EXHAUSTIVE { 1 } else { 3 }) {
+            for exponent in (4..=11).step_by(if is_exhaustive() { 1 } else { 3 }) {
                 let relative = 10.0_f64.powi(-exponent);
                 let absolute = 1e-2 * relative;
                 let integrator = DormandPrince::new(Tolerance { relative, absolute });
@@ -119,7 +119,7 @@ fn sweep<M: JointCoordinates, F: Formulation<f64>>(
                 check(is_told(model, (method, integrator), how, run));
             }
             check(is_told(model, (method, Rk4::every(1e-2)), how, run));
-            if IS_EXHAUSTIVE {
+            if is_exhaustive() {
                 check(is_told(model, (method, Rk4::every(1e-3)), how, run));
                 check(is_told(model, (method, Heun::every(1e-3)), how, run));
             }

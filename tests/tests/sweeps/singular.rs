@@ -17,7 +17,7 @@ use holonom_models::FourBar;
 use holonom_tests::RunsBoth;
 use nalgebra::Vector3;
 
-use holonom_tests::IS_EXHAUSTIVE;
+use holonom_tests::is_exhaustive;
 
 macro_rules! equal_links {
     ($($(#[$attribute:meta])* $name:ident($pin:ident))*) => {$(
@@ -187,7 +187,9 @@ fn rhombus() -> Mark<Rhombus> {
 const RIGHT: f64 = 1e-2;
 /// Evaluations: more than any run takes that ends. One that stalls in a singular configuration says
 /// that they are used up.
-const BUDGET: usize = if IS_EXHAUSTIVE { 500_000 } else { 50_000 };
+fn most_evaluations() -> usize {
+    if is_exhaustive() { 500_000 } else { 50_000 }
+}
 /// What a step or a report may take beyond what is left of the budget.
 const OVER: usize = 100;
 
@@ -219,7 +221,7 @@ fn run<M: JointCoordinates, F: Formulation<f64>, I: RunsBoth<M, F>>(
         Ok(report) => {
             let is_right = error <= RIGHT;
             let warnings = report.warnings();
-            assert!(report.evaluations <= BUDGET + OVER, "{what}");
+            assert!(report.evaluations <= most_evaluations() + OVER, "{what}");
             println!(
                 "{what}: off by {error:.1e} m, {} warnings, {} evaluations",
                 warnings.len(),
@@ -248,7 +250,10 @@ fn run<M: JointCoordinates, F: Formulation<f64>, I: RunsBoth<M, F>>(
         Err(error) => {
             println!("{what}: {error}");
             if let Fault::Step(StepFault::Budget { evaluations, .. }) = error.fault {
-                assert!(evaluations <= BUDGET + OVER, "{what}: {evaluations}");
+                assert!(
+                    evaluations <= most_evaluations() + OVER,
+                    "{what}: {evaluations}"
+                );
             }
             None
         }
@@ -264,15 +269,16 @@ fn sweep<M: JointCoordinates, F: Formulation<f64>>(model: &M, mark: &Mark<M>, me
         assert!(is_right, "{what:?}: {error:?}");
     };
     for how in [(false, false), (true, false), (false, true), (true, true)] {
-        for exponent in (5..=11).step_by(if IS_EXHAUSTIVE { 1 } else { 4 }) {
+        for exponent in (5..=11).step_by(if is_exhaustive() { 1 } else { 4 }) {
             let relative = 10.0_f64.powi(-exponent);
             let absolute = 1e-2 * relative;
-            let integrator = DormandPrince::new(Tolerance { relative, absolute }).budget(BUDGET);
+            let integrator =
+                DormandPrince::new(Tolerance { relative, absolute }).budget(most_evaluations());
             let error = run(model, mark, (method, integrator), how);
             check(error, 1e3 * relative, &(how, integrator));
         }
         let steps = [1e-2, 1e-3, 1e-4];
-        for &step in &steps[..if IS_EXHAUSTIVE { 3 } else { 2 }] {
+        for &step in &steps[..if is_exhaustive() { 3 } else { 2 }] {
             let error = run(model, mark, (method, Rk4::every(step)), how);
             check(error, RIGHT, &(how, step));
         }
@@ -320,12 +326,12 @@ fn goes_straight_on<M: JointCoordinates>(
     mark: &Mark<M>,
     method: AugmentedLagrangian<f64>,
 ) {
-    for exponent in (5..=11).step_by(if IS_EXHAUSTIVE { 1 } else { 2 }) {
+    for exponent in (5..=11).step_by(if is_exhaustive() { 1 } else { 2 }) {
         let relative = 10.0_f64.powi(-exponent);
         let absolute = 1e-2 * relative;
         let tolerance = Tolerance { relative, absolute };
         for by_joints in [false, true] {
-            let integrator = DormandPrince853::new(tolerance).budget(BUDGET);
+            let integrator = DormandPrince853::new(tolerance).budget(most_evaluations());
             let error = run(model, mark, (method, integrator), (true, by_joints));
             let what = format!("{}, {relative:e}, by joints: {by_joints}", M::REPORT.name);
             let is_right = error.is_some_and(|error| error < 1e3 * relative);
@@ -357,7 +363,8 @@ fn extreme(tolerance: f64, relative: f64) {
     let mut method = AugmentedLagrangian::new(1e11, 10.0, 1.0);
     method.tolerance = tolerance;
     let absolute = 1e-2 * relative;
-    let integrator = DormandPrince::new(Tolerance { relative, absolute }).budget(BUDGET);
+    let integrator =
+        DormandPrince::new(Tolerance { relative, absolute }).budget(most_evaluations());
     run(
         &FourBar::default(),
         &four_bar(),
@@ -383,7 +390,7 @@ fn an_extreme_penalty_factor_is_warned_of() {
 #[test]
 fn an_extreme_penalty_factor_is_warned_of_at_tight_tolerances() {
     extreme(1e-11, 1e-11);
-    if IS_EXHAUSTIVE {
+    if is_exhaustive() {
         extreme(1e-10, 1e-11);
     }
 }
@@ -404,7 +411,8 @@ fn what_is_open_by_a_little_is_warned_of_from_further() {
     }
     for relative in (0..=20).map(|k| 10.0_f64.powf(-3.0 - 0.1 * f64::from(k))) {
         let absolute = 1e-2 * relative;
-        let third = BogackiShampine::new(Tolerance { relative, absolute }).budget(BUDGET);
+        let third =
+            BogackiShampine::new(Tolerance { relative, absolute }).budget(most_evaluations());
         run(&model, &mark, (StandardLagrange, third), how);
     }
 }
@@ -418,13 +426,13 @@ fn long_steps_by_joints_are_looked_into() {
             let relative = 10.0_f64.powi(-exponent);
             let absolute = 1e-2 * relative;
             let tolerance = Tolerance { relative, absolute };
-            let higher = DormandPrince853::new(tolerance).budget(BUDGET);
+            let higher = DormandPrince853::new(tolerance).budget(most_evaluations());
             run(&model, &mark, (StandardLagrange, higher), how);
-            let implicit = RadauIIA::new(tolerance).budget(BUDGET);
+            let implicit = RadauIIA::new(tolerance).budget(most_evaluations());
             run(&model, &mark, (StandardLagrange, implicit), how);
-            let adams = Adams::new(tolerance).budget(BUDGET);
+            let adams = Adams::new(tolerance).budget(most_evaluations());
             run(&model, &mark, (StandardLagrange, adams), how);
-            let bdf = Bdf::new(tolerance).budget(BUDGET);
+            let bdf = Bdf::new(tolerance).budget(most_evaluations());
             run(&model, &mark, (StandardLagrange, bdf), how);
         }
         for step in [0.2, 0.1, 0.05] {
@@ -507,7 +515,8 @@ fn equations_that_are_kept_hide_nothing_by_joints() {
         for exponent in 4..=11 {
             let relative = 10.0_f64.powi(-exponent);
             let absolute = 1e-2 * relative;
-            let integrator = DormandPrince::new(Tolerance { relative, absolute }).budget(BUDGET);
+            let integrator =
+                DormandPrince::new(Tolerance { relative, absolute }).budget(most_evaluations());
             let how = (projected, true);
             run(&model, &mark, (StandardLagrange, integrator), how);
             run(&model, &mark, (Baumgarte::default(), integrator), how);
