@@ -16,6 +16,7 @@
 //! | [`CartPole`] | a pole on a cart | control, a closed form | Barto, Sutton and Anderson 1983 |
 //! | [`Clock`] | a pendulum with dry friction and a wheel that a dog holds | interactions: friction, events, dogs | Andronov, Vitt and Khaikin 1966 |
 //! | [`Ur5`], [`Panda`] | arms of six and seven hinges | robots, forward dynamics against Pinocchio | `example-robot-data` |
+//! | [`Bicycle`] | the benchmark bicycle, two wheels that roll | equations of velocities, stability over the speed | Meijaard, Papadopoulos, Ruina and Schwab 2007 |
 //! | [`HeavyChain`] | 1000 kg on a chain of grams | a ratio of masses of 1e6 | own data |
 //!
 //! IFToMM: the library of benchmark problems of its Technical Committee for Multibody Dynamics.
@@ -31,6 +32,8 @@
 #[cfg(feature = "problems")]
 extern crate std;
 
+#[cfg(feature = "bicycle")]
+mod bicycle;
 #[cfg(feature = "bricard")]
 mod bricard;
 #[cfg(feature = "cart-pole")]
@@ -65,6 +68,8 @@ mod ur5;
 #[cfg(feature = "variable-length-pendulum")]
 mod variable_length_pendulum;
 
+#[cfg(feature = "bicycle")]
+pub use bicycle::Bicycle;
 #[cfg(feature = "bricard")]
 pub use bricard::Bricard;
 #[cfg(feature = "cart-pole")]
