@@ -29,6 +29,9 @@ use crate::state::vector::Array;
 /// The directions that one evaluation takes.
 const LANES: usize = 4;
 
+/// Rates of coordinates and of speeds along directions.
+type Rates<S, const Q: usize, const N: usize> = ([Lifted<S>; Q], [Lifted<S>; N]);
+
 /// The equations of motion of a mechanism with equations of velocities, in `Q` chosen coordinates
 /// and `N` chosen speeds, by [`NonholonomicExt::nonholonomic`].
 ///
@@ -67,24 +70,38 @@ pub trait NonholonomicExt: JointRates {
     /// # use holonom::prelude::*;
     /// use holonom::independent::NonholonomicExt;
     ///
+    /// holonom::joint! {
+    ///     /// Stays in the plane, and stands on an edge that does not move sideways.
+    ///     joint Runner(i, j; point: Point, normal: Axis, side: Axis) {
+    ///         dot(i.normal.normals(), j.normal);
+    ///         dot(i.normal, j.point - i.point);
+    ///         dot(j.side, rate(j.point));
+    ///     }
+    /// }
+    ///
     /// /// Chaplygin's sleigh: its edge stands 0.3 m behind the centre of mass.
     /// #[derive(Mechanism)]
     /// #[mechanism(coordinates = "joints", kernels = [mass, inverse])]
     /// struct Sleigh {
     ///     #[body(mass = 2.0, inertia = [1.0, 1.0, 0.3], velocity = [0.7, 0.0, 0.0])]
     ///     sleigh: Body,
-    ///     #[joint(between = [ground, sleigh], point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0])]
-    ///     plane: Planar,
-    ///     #[joint(between = [ground, sleigh], point = [-0.3, 0.0, 0.0], side = [0.0, 1.0, 0.0])]
-    ///     edge: KnifeEdge,
+    ///     #[joint(
+    ///         between = [ground, sleigh], point = [-0.3, 0.0, 0.0], normal = [0.0, 0.0, 1.0], side = [0.0, 1.0, 0.0]
+    ///     )]
+    ///     runner: Runner,
     /// }
     ///
     /// let (sleigh, h) = (Sleigh::default(), Sleigh::HANDLES);
-    /// let motions = [0, 1, 2].map(|number| Motion::of(h.plane, number));
-    /// let [along_normal, along_binormal, turn] = motions;
-    /// let space = sleigh.nonholonomic(motions, [along_normal, turn])
-    ///     .or_else(|_| sleigh.nonholonomic(motions, [along_binormal, turn]))?;
-    /// let _ = space;
+    /// // A body without a joint that carries it: three displacements and three turns.
+    /// let free = |number| Motion::free(h.sleigh, number);
+    /// let space = sleigh.nonholonomic([free(0), free(1), free(5)], [free(0), free(5)])?;
+    /// let state = space.of_bodies(&sleigh.described_state()?);
+    /// let linear = space.linearise(&state, [])?;
+    /// // Its edge behind, it goes straight on: `w' = -m a u w / (J + m a^2)`.
+    /// let damping = 2.0 * 0.3 * 0.7 / (0.3 + 2.0 * 0.3 * 0.3);
+    /// assert!((linear.by_speeds[(1, 1)] + damping).abs() < 1e-12);
+    /// // The centre of mass goes aside as the sleigh is turned.
+    /// assert!((linear.rates_by_coordinates[(1, 2)] - 0.7).abs() < 1e-12);
     /// # Ok::<(), Fault>(())
     /// ```
     ///
@@ -246,7 +263,7 @@ where
         state: &M::JointState<S>,
         ways_of: &Partition<M, Q, S>,
         directions: &[Option<Along>; LANES],
-    ) -> Result<([Lifted<S>; Q], [Lifted<S>; N]), Fault> {
+    ) -> Result<Rates<S, Q, N>, Fault> {
         let mut equations = self.speeds.equations.lifted::<LANES>();
         let mut parameters: M::Parameters<Lifted<S>> = lifted(&self.speeds.parameters);
         let mut ways = M::JointVelocities::<Lifted<S>>::zeros();

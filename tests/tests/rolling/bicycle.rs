@@ -51,13 +51,14 @@ fn linear(speed: f64) -> LinearMotion<7, 3, 0> {
     space.linearise(&state, []).expect("a linear model")
 }
 
-/// The four eigenvalues that are not zero, by their real parts.
+/// The four eigenvalues that are not zero, by their real parts. Those that are zero are multiple
+/// ones, of which round-off leaves its roots.
 fn eigenvalues(speed: f64) -> Vec<Complex<f64>> {
     let all = linear(speed).a::<10>().complex_eigenvalues();
     let mut found: Vec<_> = all.iter().copied().collect();
     found.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
     assert!(
-        found[..6].iter().all(|value| value.norm() < 1e-6),
+        found[..6].iter().all(|value| value.norm() < 1e-4),
         "{found:?}"
     );
     let mut found = found.split_off(6);
@@ -68,8 +69,8 @@ fn eigenvalues(speed: f64) -> Vec<Complex<f64>> {
 /// Table 2 of Meijaard et al. (2007).
 #[test]
 fn eigenvalues_are_those_of_the_benchmark() {
-    let pair = |re, im| [Complex::new(re, -im), Complex::new(re, im)];
-    let one = |re| Complex::new(re, 0.0);
+    let pair = |re: f64, im: f64| [Complex::new(re, -im), Complex::new(re, im)];
+    let one = |re: f64| Complex::new(re, 0.0);
     let [weave, other] = pair(1.706_756_056_639_75, 2.315_824_473_843_25);
     let [fast, faster] = pair(-0.775_341_882_195_845, 4.464_867_713_788_23);
     let [seven, of_seven] = pair(-2.138_756_442_583_62, 7.195_259_133_298_05);
@@ -146,10 +147,12 @@ fn weave_and_capsize_speeds_are_those_of_the_benchmark() {
         let swinging = values.iter().find(|value| value.im.abs() > 1.0);
         swinging.expect("a pair").re
     };
+    // The product of the four, which vanishes with one of them: by Newton's identities.
     let capsize = |speed: f64| {
-        let values = eigenvalues(speed);
-        let slow = values.iter().filter(|value| value.im == 0.0);
-        slow.map(|value| value.re).fold(f64::NEG_INFINITY, f64::max)
+        let a = linear(speed).a::<10>();
+        let [second, third] = [a * a, a * a * a];
+        let [p, q, r, s] = [a, second, third, second * second].map(|power| power.trace());
+        (p.powi(4) - 6.0 * p * p * q + 3.0 * q * q + 8.0 * p * r - 6.0 * s) / 24.0
     };
     let zero = |of: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64| {
         let sign = of(low).signum();
@@ -351,6 +354,6 @@ fn it_recovers_between_the_two_speeds() {
             assert!((sample.energy() - first).abs() < 1e-5 * first);
         })
         .expect("a run");
-    assert!(report.warnings.is_empty(), "{}", report.warnings);
+    assert!(report.warnings().is_empty(), "{}", report.warnings());
     assert!(leans > 0.05 && last.abs() < 0.01 * leans, "{leans} {last}");
 }

@@ -1,8 +1,8 @@
 //! A disc and a ball that roll, against closed forms.
 
+use holonom::Pose;
 use holonom::nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use holonom::prelude::*;
-use holonom::{MechanismExt as _, Pose};
 
 /// A disc of 2 kg and 0.2 m.
 #[derive(Mechanism)]
@@ -37,7 +37,10 @@ fn steady(lean: f64, turn: f64) -> (StateOf<Disc>, f64) {
     let (along, up) = (Vector3::y(), Vector3::z());
     let axle = cosine * along + sine * up;
     let upward = cosine * up - sine * along;
-    let mut state: StateOf<Disc> = Disc { crown: 0.0 }.described_state().expect("as described");
+    let mut state: StateOf<Disc> = Disc::new(0.0)
+        .expect("a disc")
+        .described_state()
+        .expect("as described");
     let turned = Rotation3::rotation_between(&along, &axle).expect("no half turn");
     let disc = Disc::HANDLES.disc;
     let position = r * upward;
@@ -59,7 +62,7 @@ fn steady(lean: f64, turn: f64) -> (StateOf<Disc>, f64) {
 #[test]
 fn a_disc_rolls_in_a_steady_circle() {
     let h = Disc::HANDLES;
-    let disc = Disc { crown: 0.0 };
+    let disc = Disc::new(0.0).expect("a disc");
     for (lean, turn) in [(0.3, 2.0), (0.8, -3.0), (-0.2, 1.5), (1.3, 6.0)] {
         let (state, circle) = steady(lean, turn);
         let period = core::f64::consts::TAU / turn.abs();
@@ -102,10 +105,12 @@ fn a_disc_rolls_in_a_steady_circle() {
 #[test]
 fn a_leaning_wheel_keeps_its_energy() {
     for crown in [0.0, 0.05, 0.2] {
-        let disc = Disc { crown };
+        let disc = Disc::new(crown).expect("a disc");
         let h = Disc::HANDLES;
         let mut state: StateOf<Disc> = disc.described_state().expect("as described");
-        Disc::set_angular_velocity_global(&mut state, h.disc, Vector3::new(0.4, 5.0, 0.3));
+        let spin = Vector3::new(0.4, 5.0, 0.3);
+        Disc::set_angular_velocity_global(&mut state, h.disc, spin);
+        Disc::set_velocity(&mut state, h.disc, spin.cross(&Vector3::new(0.0, 0.0, 0.2)));
         let mut first = None;
         let simulation = Simulation::new(&disc, StandardLagrange, Rk4::every(1e-3));
         let mut simulation = simulation.initial_state(state).assembled();
@@ -118,13 +123,13 @@ fn a_leaning_wheel_keeps_its_energy() {
                 assert!(sample.pose(h.disc).position.z > 0.15);
             })
             .expect("a run");
-        assert!(report.warnings.is_empty(), "{}", report.warnings);
+        assert!(report.warnings().is_empty(), "{}", report.warnings());
     }
 }
 
 #[test]
 fn a_disc_that_falls_flat_is_a_fault() {
-    let (disc, h) = (Disc { crown: 0.0 }, Disc::HANDLES);
+    let (disc, h) = (Disc::new(0.0).expect("a disc"), Disc::HANDLES);
     let (mut state, _) = steady(1.2, 1.0);
     Disc::set_velocity(&mut state, h.disc, Vector3::zeros());
     Disc::set_angular_velocity_global(&mut state, h.disc, Vector3::zeros());
@@ -166,7 +171,7 @@ pub(crate) struct Table {
 fn a_ball_on_a_turning_table_runs_in_circles() {
     let h = Table::HANDLES;
     for rate in [0.0, 3.0, -7.0] {
-        let table = Table { rate };
+        let table = Table::new(rate).expect("a table");
         let mut first: Option<(Vector3<f64>, Vector3<f64>)> = None;
         let mut observe = |sample: &Sample<'_, f64, Table>| {
             let (place, velocity) = (sample.pose(h.ball).position, sample.velocity(h.ball));
@@ -184,16 +189,18 @@ fn a_ball_on_a_turning_table_runs_in_circles() {
                 let expected = from + arm - turned * arm;
                 assert!((place - expected).norm() < 1e-10, "{place} for {expected}");
             }
-            assert!((sample.angular_velocity_global(h.ball).z - 2.0).abs() < 1e-11);
+            let spin = sample.angular_velocity_global(h.ball).z;
+            assert!((spin - 2.0).abs() < 1e-9, "{rate} {} {spin}", sample.time());
         };
-        let simulation = || Simulation::new(&table, StandardLagrange, Rk4::every(1e-3)).assembled();
+        let simulation =
+            || Simulation::new(&table, StandardLagrange, Rk4::every(2.5e-4)).assembled();
         simulation()
             .absolute_coordinates()
-            .run(0.0..=3.0, every(0.5), &mut observe)
+            .run(0.0..=1.5, every(0.5), &mut observe)
             .expect("a run");
         simulation()
             .joint_coordinates()
-            .run(0.0..=3.0, every(0.5), &mut observe)
+            .run(0.0..=1.5, every(0.5), &mut observe)
             .expect("a run");
     }
 }
@@ -248,13 +255,15 @@ fn rates_that_have_an_integral_move_as_it_does() {
         let time = sample.time();
         let fallen = 0.5 * acceleration * time * time;
         assert!((sample.displacement(h.shaft) - fallen).abs() < 1e-11);
-        assert!((sample.angle(h.bearing) - fallen / 0.1).abs() < 1e-10 || time > 1.0);
+        let off = sample.angle(h.bearing) - fallen / 0.1;
+        let turns = off / core::f64::consts::TAU;
+        assert!((turns - turns.round()).abs() < 1e-10, "{turns}");
         assert!((sample.displacement(h.rail) - 0.1 * time.powi(3)).abs() < 1e-10);
         let effort = sample.driving_effort(h.belt)?;
         assert!((effort - 2.0 * 0.6 * time).abs() < 1e-9, "{effort}");
         Ok(())
     };
-    let simulation = || Simulation::new(&drum, StandardLagrange, Rk4::every(1e-2)).assembled();
+    let simulation = || Simulation::new(&drum, StandardLagrange, Rk4::every(5e-4)).assembled();
     simulation()
         .absolute_coordinates()
         .run(0.0..=1.0, every(0.25), observe)

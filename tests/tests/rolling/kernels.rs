@@ -4,11 +4,11 @@
 use holonom::nalgebra::{UnitQuaternion, Vector3};
 use holonom::prelude::*;
 use holonom::state::Array;
-use holonom::{Forward, Mechanism, MechanismExt as _};
+use holonom::{Forward, Mechanism};
 use holonom_models::Bicycle;
 
 use crate::free::{Disc, Drum, Table};
-use crate::sleigh::Sleigh;
+use crate::sleigh::sleigh;
 
 type Dual = Forward<f64, 1>;
 
@@ -114,16 +114,16 @@ fn are_derivatives<M: Mechanism>(mechanism: &M) {
 #[test]
 fn rows_are_derivatives_of_rates() {
     are_derivatives(&Bicycle::default());
-    are_derivatives(&Disc::default());
-    are_derivatives(&Table::default());
-    are_derivatives(&Sleigh::default());
+    are_derivatives(&Disc::new(0.03).expect("a disc"));
+    are_derivatives(&Table::new(3.0).expect("a table"));
+    are_derivatives(&sleigh(0.4));
     are_derivatives(&Drum::default());
 }
 
 /// The slip of a disc, and that it touches, by the angular velocity and the lowest point.
 #[test]
 fn a_wheel_slips_by_what_its_lowest_point_does() {
-    let disc = Disc::default();
+    let disc = Disc::new(0.0).expect("a disc");
     let constants = disc.constants::<f64>().expect("parameters");
     let h = Disc::HANDLES;
     for seed in 0..50 {

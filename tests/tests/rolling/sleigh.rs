@@ -28,9 +28,12 @@ pub(crate) struct Sleigh {
 /// Mass, moment of inertia and the distance of the edge.
 const SLEIGH: [f64; 3] = [2.0, 0.3, 0.3];
 
-fn sleigh(push: f64) -> Sleigh {
+pub(crate) fn sleigh(push: f64) -> Sleigh {
     let [_, _, behind] = SLEIGH;
-    Sleigh { behind, push }
+    Sleigh {
+        push,
+        ..Sleigh::new(behind).expect("a sleigh")
+    }
 }
 
 /// Rates of speed along the sleigh, rate of turn, angle and place of the centre of mass:
@@ -152,7 +155,8 @@ fn positions_follow_from_no_chosen_ones() {
         fault.to_string(),
         "joint `edge` has equations of velocities, which determine no positions: neither chosen coordinates nor a kinematic analysis have them; take a run"
     );
-    let analysis = KinematicAnalysis::new(&sleigh(0.0), StandardLagrange);
+    let sleigh = sleigh(0.0);
+    let analysis = KinematicAnalysis::new(&sleigh, StandardLagrange);
     let fault = analysis
         .run(0.0..=1.0, every(0.1), |_| {})
         .expect_err("it is not driven");
