@@ -33,6 +33,11 @@ pub(crate) fn constant(value: f64) -> Dual2_64 {
     Dual2_64::new(value, 0.0, 0.0)
 }
 
+/// The derivative along the motion, with one of its own; no second one is known.
+fn rate(number: Dual2_64) -> Dual2_64 {
+    Dual2_64::new(number.v1, number.v2, 0.0)
+}
+
 pub(crate) fn dot(a: Vector, b: Vector) -> Dual2_64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
@@ -54,17 +59,17 @@ impl Pose {
         }
     }
 
-    /// The angular velocity along the motion, global: half the sum of `a x a'` over the axes `a` of
-    /// the body, which have the length of `p . p`.
-    fn spin(&self) -> [f64; 3] {
-        let mut twice = [0.0; 3];
+    /// The angular velocity along the motion, global, with its derivative: half the sum of
+    /// `a x a'` over the axes `a` of the body, which have the length of `p . p`.
+    fn spin(&self) -> Vector {
+        let mut twice = [constant(0.0); 3];
         for k in 0..3 {
             let axis = self.outwards([0, 1, 2].map(|l| constant(f64::from(u8::from(k == l)))));
-            let turning = cross(axis.map(|a| constant(a.re)), axis.map(|a| constant(a.v1)));
-            twice = [0, 1, 2].map(|l| twice[l] + turning[l].re);
+            let turning = cross(axis, axis.map(rate));
+            twice = [0, 1, 2].map(|l| twice[l] + turning[l]);
         }
         let square: f64 = self.euler.iter().map(|e| e.re * e.re).sum();
-        twice.map(|part| 0.5 * part / square)
+        twice.map(|part| part * (0.5 / square))
     }
 
     /// `A(p) s` by the formula for one vector: `(e0^2 - e.e) s + 2 e (e.s) + 2 e0 (e x s)`;
@@ -149,6 +154,8 @@ pub(crate) struct Interpreter<'a> {
     pub(crate) scale: Cell<f64>,
     /// Whether something was near a singularity.
     pub(crate) singular: Cell<bool>,
+    /// Whether a rate stands in what was evaluated.
+    rated: Cell<bool>,
 }
 
 /// Where an expression is evaluated.
@@ -185,13 +192,17 @@ impl<'a> Interpreter<'a> {
             turns,
             scale: Cell::new(1.0),
             singular: Cell::new(false),
+            rated: Cell::new(false),
         }
     }
 
-    /// The values of all equations.
+    /// The values of all equations. One of velocities is the derivative of nothing that is known:
+    /// its value is zero.
     pub(crate) fn rows(&self) -> Vec<Dual2_64> {
         let mut rows = Vec::new();
         for statement in &self.element.statements {
+            self.rated.set(false);
+            let first = rows.len();
             match statement {
                 Statement::Row(expr) => match self.value(expr, When::Now, None) {
                     Value::Scalars(scalars) => rows.extend(scalars),
@@ -199,6 +210,11 @@ impl<'a> Interpreter<'a> {
                 },
                 Statement::Drive(driven, law) => rows.push(self.number(driven) - self.number(law)),
                 _ => {}
+            }
+            if self.rated.get() {
+                for row in &mut rows[first..] {
+                    *row = Dual2_64::new(0.0, row.re, row.v1);
+                }
             }
         }
         rows
@@ -471,13 +487,27 @@ impl<'a> Interpreter<'a> {
                 Value::Scalars(squares.map(|square| self.root(square)).collect())
             }
             // Along the motion.
-            "rate" => scalar(constant(number(0).v1)),
+            "rate" => {
+                self.rated.set(true);
+                match of(0) {
+                    Value::Scalars(scalars) => {
+                        Value::Scalars(scalars.into_iter().map(rate).collect())
+                    }
+                    Value::Vectors(vectors) => {
+                        Value::Vectors(vectors.into_iter().map(|v| v.map(rate)).collect())
+                    }
+                }
+            }
             "angular_velocity" => {
-                let [from, to] = [0, 1].map(|place| {
-                    let body = self.body(given[place]);
-                    self.pose(body, when).spin()
-                });
-                vector([0, 1, 2].map(|k| constant(to[k] - from[k])))
+                self.rated.set(true);
+                let spins = given
+                    .iter()
+                    .map(|body| self.pose(self.body(body), when).spin());
+                vector(match spins.collect::<Vec<_>>()[..] {
+                    [to] => to,
+                    [from, to] => [0, 1, 2].map(|k| to[k] - from[k]),
+                    _ => panic!("one body or two"),
+                })
             }
             "asin" => scalar(number(0).asin()),
             "acos" => scalar(number(0).acos()),

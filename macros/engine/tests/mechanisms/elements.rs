@@ -31,7 +31,7 @@ const TREE: [&str; 12] = [
     "Fixed",
     "RevoluteRevolute",
 ];
-const LOOP: [&str; 19] = [
+const LOOP: [&str; 22] = [
     "Revolute",
     "Spherical",
     "Universal",
@@ -51,6 +51,9 @@ const LOOP: [&str; 19] = [
     "DisplacementDriver",
     "OrientationDriver",
     "Screw",
+    "KnifeEdge",
+    "RollingWheel",
+    "RollingBall",
 ];
 const PLANAR: [&str; 6] = [
     "Revolute",
@@ -211,6 +214,15 @@ impl Generator {
                     entries.push(("point".into(), self.written_point(at, &pair)));
                 }
             }
+            "KnifeEdge" => {
+                let at = self.anchor(j, None);
+                let written = self.at(at, &pair, j);
+                entries.push(("point".into(), written));
+                entries.push(self.axis("side", direction, &pair));
+            }
+            "RollingWheel" | "RollingBall" => {
+                entries.extend(self.rolling(ty == "RollingWheel", direction, &pair)?)
+            }
             "AngleDriver" | "OrientationDriver" => {
                 entries.push(self.axis("axis", direction, &pair));
                 entries.push(("motion".into(), self.law(&[])));
@@ -240,6 +252,43 @@ impl Generator {
             }
         }
         Some((ty, pair.into(), entries))
+    }
+
+    /// A wheel or a ball on a plane with a normal.
+    fn rolling(
+        &mut self,
+        is_wheel: bool,
+        normal: [f64; 3],
+        pair: &[Option<usize>; 2],
+    ) -> Option<Entries> {
+        let unit = |v: [f64; 3]| v.map(|x| x / length(v));
+        let center = self.point();
+        let radius = 0.2 + 0.3 * self.dice.number().abs();
+        let n = unit(normal);
+        let mut entries = vec![
+            ("center".into(), self.written_point(center, pair)),
+            self.axis("normal", normal, pair),
+            ("radius".into(), self.number(radius)),
+        ];
+        let mut arm = n.map(|x| -radius * x);
+        if is_wheel {
+            let axle = self.dice.unit::<3>();
+            let crown = [0.0, 0.3 * radius][self.dice.below(2)];
+            let lean: f64 = (0..3).map(|k| n[k] * axle[k]).sum();
+            if lean.abs() > 0.9 {
+                return None;
+            }
+            let upright = (1.0 - lean * lean).sqrt();
+            arm = [0, 1, 2]
+                .map(|k| (radius - crown) * (lean * axle[k] - n[k]) / upright - crown * n[k]);
+            entries.push(self.axis("axle", axle, pair));
+            entries.push(("crown".into(), self.number(crown)));
+        }
+        // Anywhere in the plane.
+        let aside = cross(n, self.dice.unit::<3>());
+        let point = [0, 1, 2].map(|k| center[k] + arm[k] + aside[k]);
+        entries.push(("point".into(), self.written_point(point, pair)));
+        Some(entries)
     }
 
     /// A joint of three bodies.

@@ -6,7 +6,7 @@ use holonom_engine::model::ElementKind;
 use proc_macro2::TokenTree;
 use syn::Item;
 
-const FILES: [&str; 18] = [
+const FILES: [&str; 19] = [
     include_str!("../../../../runtime/src/joints/constant_velocity.rs"),
     include_str!("../../../../runtime/src/joints/cylindrical.rs"),
     include_str!("../../../../runtime/src/joints/distance.rs"),
@@ -18,6 +18,7 @@ const FILES: [&str; 18] = [
     include_str!("../../../../runtime/src/joints/points.rs"),
     include_str!("../../../../runtime/src/joints/prismatic.rs"),
     include_str!("../../../../runtime/src/joints/revolute.rs"),
+    include_str!("../../../../runtime/src/joints/rolling.rs"),
     include_str!("../../../../runtime/src/joints/screw.rs"),
     include_str!("../../../../runtime/src/joints/spherical.rs"),
     include_str!("../../../../runtime/src/joints/universal.rs"),

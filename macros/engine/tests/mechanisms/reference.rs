@@ -251,8 +251,14 @@ impl Equations {
             self.gradients.push(vec![0.0; self.forces.len()]);
             self.joints.push(place);
         }
+        // What an equation of velocities has at rest is no part of a gradient.
+        let standing = motion.standing.clone();
+        let at_rest = motion.read(element, &standing, 0.0, |i| i.rows())?;
         for (body, column, poses) in motion.columns(element.0) {
-            let values = motion.read(element, &poses, 0.0, |i| i.rows())?;
+            let mut values = motion.read(element, &poses, 0.0, |i| i.rows())?;
+            for (value, at_rest) in values.iter_mut().zip(&at_rest) {
+                value.v1 -= at_rest.v1;
+            }
             let components = motion.read(element, &poses, 0.0, |i| i.components(&values))?;
             for (row, along) in components {
                 let mut own = self.components.iter_mut();
