@@ -8,9 +8,9 @@ use std::path::Path;
 
 use holonom_film::Sketch as _;
 use holonom_models::{
-    Bricard, CartPole, Clock, Door, DoubleFourBar, DrivenSliderCrank, FlyballGovernor, FourBar,
-    HeavyChain, HeavyTop, Panda, QuintupleFourBar, RodPendulum, SimplePendulum, SliderCrank,
-    SqueezingMechanism, Ur5, VariableLengthPendulum,
+    Bicycle, Bricard, CartPole, Clock, Door, DoubleFourBar, DrivenSliderCrank, FlyballGovernor,
+    FourBar, HeavyChain, HeavyTop, Panda, QuintupleFourBar, RodPendulum, SimplePendulum,
+    SliderCrank, SqueezingMechanism, Ur5, VariableLengthPendulum,
 };
 
 /// Write the drawings anew: `HOLONOM_DRAW=1 cargo test -p holonom-film --test drawings`.
@@ -45,6 +45,7 @@ macro_rules! sketches {
 }
 
 sketches! {
+    "bicycle": Bicycle,
     "bricard": Bricard,
     "cart_pole": CartPole,
     "clock": Clock,
