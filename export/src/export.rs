@@ -156,7 +156,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 } else {
                     f64::EPSILON
                 },
-            has_pivot: C::HAS_PIVOTS,
+            has_pivot: C::HAS_PIVOTS && !F::Terms::COMPLIANT,
             constants: Vec::new(),
             limited: Vec::new(),
             is_passing_limits: false,
@@ -165,7 +165,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             start_fault: None,
             types: PhantomData,
         };
-        if F::ITERATED || F::Terms::COMPLIANT {
+        if F::ITERATED {
             export.fault = Some(ExportError::Formulation);
         }
         if let Err(fault) = export.begin(mechanism, formulation) {
@@ -189,7 +189,9 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             self.start_described::<f64>(mechanism)?;
         }
         self.layout();
-        self.preparation(&stabilisation);
+        let radian = formulation.radian();
+        let compliances = self.compliances::<F::Terms>(&parameters, &stabilisation, radian)?;
+        self.preparation(&stabilisation, &compliances);
         self.kernel::<F::Terms>();
         self.of_joints(&parameters);
         self.of_limits();
@@ -205,7 +207,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 self.start_fault = Some(fault);
                 let parameters = mechanism.parameters::<S>()?;
                 let rigid = StandardLagrange.stabilisation()?;
-                let (own, _) = C::prepare(&parameters, &rigid);
+                let (own, _) = C::prepare(&parameters, &rigid, &Array::zeros());
                 let bodies = M::initial_state(&M::prepare(&parameters));
                 self.start_from(&C::of_bodies(&own, &bodies));
             }
