@@ -1,9 +1,11 @@
 //! What follows from parameters and inputs alone, computed once.
 
-use holonom::mechanism::{Coordinates, Stabilisation, TracedCoordinates};
+use holonom::mechanism::{Coordinates, Stabilisation, Terms, TracedCoordinates};
 use holonom::state::Array as _;
-use holonom::{Mechanism, Scalar as _};
+use holonom::traced as of_rust;
+use holonom::{Mechanism, Scalar};
 
+use crate::error::ExportError;
 use crate::export::{CONSTANTS, Export, INPUTS, PARAMETERS, argument, outputs, structure, written};
 use crate::limits::constants_of;
 use crate::number::{Precision, Traced};
@@ -43,8 +45,60 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         parameters
     }
 
+    /// The compliances of all equations, as a [`Stepper`](holonom::Stepper) of the mechanism has
+    /// them. They are chosen by comparisons, so none may depend on a parameter or an input.
+    pub(crate) fn compliances<T: Terms>(
+        &self,
+        parameters: &M::Parameters<f64>,
+        stabilisation: &Stabilisation<f64>,
+        radian: f64,
+    ) -> Result<Vec<f64>, ExportError> {
+        let has_equations = !C::Multipliers::<f64>::zeros().as_slice().is_empty();
+        if T::COMPLIANT && has_equations && !self.has_known_units() {
+            return Err(ExportError::Compliance);
+        }
+        if !P::IS_SINGLE {
+            let constants = M::prepare(parameters);
+            let all = of_rust::compliances::<_, M, T>(&constants, stabilisation, radian)?;
+            return Ok(all.as_slice().to_vec());
+        }
+        let single = <f32 as Scalar>::constant;
+        let mut rounded = M::Parameters::<f32>::zeros();
+        let places = rounded.as_mut_slice().iter_mut();
+        let numbers = parameters.as_slice();
+        places
+            .zip(numbers)
+            .for_each(|(place, &number)| *place = single(number));
+        let stabilisation = Stabilisation {
+            rate: single(stabilisation.rate),
+            position: single(stabilisation.position),
+            compliance: single(stabilisation.compliance),
+        };
+        let constants = M::prepare(&rounded);
+        let all = of_rust::compliances::<_, M, T>(&constants, &stabilisation, single(radian))?;
+        Ok(all
+            .as_slice()
+            .iter()
+            .map(|&number| f64::from(number))
+            .collect())
+    }
+
+    /// Whether units of equations are the same whatever parameters and inputs are.
+    fn has_known_units(&self) -> bool {
+        let (tape, places) = traced(P::IS_SINGLE, || {
+            let constants = M::prepare(&self.parameters());
+            let mut places = Vec::new();
+            let each = |number: Traced<P>| places.push(number.place());
+            of_rust::numbers_of_units::<_, M>(&constants, each);
+            places
+        });
+        let (needed, _) = tape.needed(places);
+        let mut needed = tape.operations().iter().zip(needed);
+        !needed.any(|(operation, is)| is && matches!(operation, Operation::Argument(_)))
+    }
+
     /// The functions that compute constants, of parameters and inputs and of inputs alone.
-    pub(crate) fn preparation(&mut self, stabilisation: &Stabilisation<f64>) {
+    pub(crate) fn preparation(&mut self, stabilisation: &Stabilisation<f64>, compliances: &[f64]) {
         let number = Traced::<P>::constant;
         let prepared = traced(P::IS_SINGLE, || {
             let stabilisation = Stabilisation {
@@ -53,7 +107,11 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 compliance: number(stabilisation.compliance),
             };
             let parameters = self.parameters();
-            let (own, coefficients) = C::prepare(&parameters, &stabilisation);
+            let mut by_row = M::Multipliers::<Traced<P>>::zeros();
+            let rows = by_row.as_mut_slice().iter_mut();
+            rows.zip(compliances)
+                .for_each(|(row, &known)| *row = number(known));
+            let (own, coefficients) = C::prepare(&parameters, &stabilisation, &by_row);
             let absolute = M::prepare(&parameters);
             let limits = constants_of::<P, M>(&parameters);
             let slices = [own.as_slice(), coefficients.as_slice(), absolute.as_slice()];

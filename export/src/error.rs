@@ -11,12 +11,12 @@ use holonom::Fault;
 pub enum ExportError {
     /// The mechanism or its start was refused.
     Mechanism(Fault),
-    /// The formulation has a compliance or iterates: only [`StandardLagrange`] and [`Baumgarte`]
-    /// solve their system once, with nothing beside it.
-    ///
-    /// [`StandardLagrange`]: holonom::StandardLagrange
-    /// [`Baumgarte`]: holonom::Baumgarte
+    /// The formulation iterates: [`AugmentedLagrangian`](holonom::AugmentedLagrangian) solves its
+    /// system as often as the numbers ask for, the others once.
     Formulation,
+    /// What a metre or a radian is in an equation depends on a parameter or an input, and with it
+    /// the compliance of a [`Penalty`](holonom::Penalty).
+    Compliance,
     /// Limits of an angle that are a turn or more apart: a state in C counts no turns, so a step
     /// cannot heed them. [`Export::without_limits`](crate::Export::without_limits) passes them.
     Limits {
@@ -55,7 +55,10 @@ impl fmt::Display for ExportError {
         match self {
             Self::Mechanism(fault) => fault.fmt(f),
             Self::Formulation => f.write_str(
-                "this formulation has a compliance or iterates: export with `StandardLagrange` or `Baumgarte`",
+                "this formulation iterates: export with `StandardLagrange`, `Baumgarte` or `Penalty`",
+            ),
+            Self::Compliance => f.write_str(
+                "compliances of equations follow from lengths, and a parameter or an input is one of these: export with `StandardLagrange` or `Baumgarte`, or write lengths as numbers",
             ),
             Self::Limits { joint } => write!(
                 f,

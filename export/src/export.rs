@@ -6,7 +6,7 @@ use holonom::dynamics::Problem;
 use holonom::formulation::Formulation;
 use holonom::mechanism::{Terms, TracedCoordinates};
 use holonom::state::{Array, MovingState, Vector as _};
-use holonom::{Mechanism, Real, Rk4, StandardLagrange, Stepper, View};
+use holonom::{Fault, Mechanism, Real, Rk4, StandardLagrange, Stepper, View};
 
 use crate::constants::Constant;
 use crate::error::ExportError;
@@ -120,6 +120,8 @@ pub struct Export<M: Mechanism, P = Double, C = <M as Mechanism>::Coordinates> {
     /// Whether what one side of a choice alone needs stands behind a branch.
     pub(crate) has_branches: bool,
     pub(crate) fault: Option<ExportError>,
+    /// Why the program cannot begin in the described state.
+    start_fault: Option<Fault>,
     types: PhantomData<(M, P, C)>,
 }
 
@@ -154,15 +156,16 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 } else {
                     f64::EPSILON
                 },
-            has_pivot: C::HAS_PIVOTS,
+            has_pivot: C::HAS_PIVOTS && !F::Terms::COMPLIANT,
             constants: Vec::new(),
             limited: Vec::new(),
             is_passing_limits: false,
             has_branches: true,
             fault: None,
+            start_fault: None,
             types: PhantomData,
         };
-        if F::ITERATED || F::Terms::COMPLIANT {
+        if F::ITERATED {
             export.fault = Some(ExportError::Formulation);
         }
         if let Err(fault) = export.begin(mechanism, formulation) {
@@ -181,17 +184,34 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self.defaults = parameters.as_slice().to_vec();
         self.limited = limits_of::<M>(&parameters);
         if P::IS_SINGLE {
-            let stepper = Stepper::<Problem<_, _, f32>, _>::new(mechanism, StandardLagrange, Rk4)?;
-            self.start_from(&stepper.coordinates::<C>().initial_state()?);
+            self.start_described::<f32>(mechanism)?;
         } else {
-            let stepper = Stepper::<Problem<_, _>, _>::new(mechanism, StandardLagrange, Rk4)?;
-            self.start_from(&stepper.coordinates::<C>().initial_state()?);
+            self.start_described::<f64>(mechanism)?;
         }
         self.layout();
-        self.preparation(&stabilisation);
+        let radian = formulation.radian();
+        let compliances = self.compliances::<F::Terms>(&parameters, &stabilisation, radian)?;
+        self.preparation(&stabilisation, &compliances);
         self.kernel::<F::Terms>();
         self.of_joints(&parameters);
         self.of_limits();
+        Ok(())
+    }
+
+    /// Begins in the described state. One that opens joints is noted, as another start may be set.
+    fn start_described<S: Real>(&mut self, mechanism: &M) -> Result<(), ExportError> {
+        let stepper = Stepper::<Problem<_, _, S>, _>::new(mechanism, StandardLagrange, Rk4)?;
+        match stepper.coordinates::<C>().initial_state() {
+            Ok(state) => self.start_from(&state),
+            Err(fault) => {
+                self.start_fault = Some(fault);
+                let parameters = mechanism.parameters::<S>()?;
+                let rigid = StandardLagrange.stabilisation()?;
+                let (own, _) = C::prepare(&parameters, &rigid, &Array::zeros());
+                let bodies = M::initial_state(&M::prepare(&parameters));
+                self.start_from(&C::of_bodies(&own, &bodies));
+            }
+        }
         Ok(())
     }
 
@@ -314,7 +334,10 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         let stepper = Stepper::new(mechanism, StandardLagrange, Rk4);
         let state = stepper.and_then(|stepper| stepper.coordinates::<C>().state_of(bodies));
         match state {
-            Ok(state) => self.start_from(&state),
+            Ok(state) => {
+                self.start_fault = None;
+                self.start_from(&state);
+            }
             Err(fault) => {
                 self.fault.get_or_insert(fault.into());
             }
@@ -416,7 +439,8 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     /// # Errors
     /// What was wrong with the mechanism or with one of its functions.
     pub fn checked(mut self) -> Result<Self, ExportError> {
-        if let Some(fault) = self.fault.take() {
+        let of_start = self.start_fault.take().map(ExportError::from);
+        if let Some(fault) = self.fault.take().or(of_start) {
             return Err(fault);
         }
         if self.program.structs[SLOPE].members.is_empty() {

@@ -118,7 +118,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             position: 0.0,
             compliance: 0.0,
         };
-        let (own, _) = C::prepare(parameters, &rigid);
+        let (own, _) = C::prepare(parameters, &rigid, &Array::zeros());
         let mut state = C::State::<f64>::zeros();
         for (place, &number) in self.start.iter().enumerate() {
             state.set_element(place, number);

@@ -34,7 +34,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 own: &own,
                 absolute: &absolute,
                 gives: &gives,
-                has_pivot: C::HAS_PIVOTS,
+                has_pivot: self.has_pivot,
                 pivot: None,
             };
             let next = advanced(&scheme, &mut system, (time, &state), dt)?;

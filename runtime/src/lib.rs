@@ -114,9 +114,10 @@ pub mod spline {
     pub use crate::math::spline::{Spline, SplineFault, uniform_knots};
 }
 
-/// Limits and a projection for programs in other languages.
+/// Compliances, limits and a projection for programs in other languages.
 #[doc(hidden)]
 pub mod traced {
+    pub use crate::constraints::compliance::{compliances, numbers_of_units};
     pub use crate::constraints::traced::{Projected, projected};
     pub use crate::mechanism::AtTime;
     pub use crate::nonsmooth::traced::{LimitedJoint, impact, limited_joint};

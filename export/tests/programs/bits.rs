@@ -55,12 +55,23 @@ fn compare<S: Number, X: Vector<S> + Copy>(
 }
 
 macro_rules! compare {
-    ($name:expr, $mechanism:ty, $float:ty, $precision:ty, $coordinates:ty, $scheme:expr) => {{
+    ($name:expr, $mechanism:ty, $float:ty, $precision:ty, $coordinates:ty, $scheme:expr) => {
+        compare!(
+            $name,
+            $mechanism,
+            $float,
+            $precision,
+            $coordinates,
+            $scheme,
+            StandardLagrange
+        );
+    };
+    ($name:expr, $mechanism:ty, $float:ty, $precision:ty, $coordinates:ty, $scheme:expr, $formulation:expr) => {{
         let mechanism = <$mechanism>::default();
-        let export = Export::<_, $precision, $coordinates>::new(&mechanism, StandardLagrange);
+        let export = Export::<_, $precision, $coordinates>::new(&mechanism, $formulation);
         let source = export.named($name).step($scheme).c().expect("exported");
         let problem = Stepper::<Problem<_, _, $float>, _>::new;
-        let stepper = problem(&mechanism, StandardLagrange, $scheme).expect("described");
+        let stepper = problem(&mechanism, $formulation, $scheme).expect("described");
         let stepper = stepper.coordinates::<$coordinates>();
         let start = stepper.initial_state().expect("described");
         compare::<$float, _>(&source, &start, |time, mut state, dt| {
@@ -116,6 +127,26 @@ fn single_precision_and_other_methods() {
         SemiImplicitEuler
     );
     compare!("kutta", FourBar, f64, Double, Relative, Kutta3);
+}
+
+/// A row of squares, whose metre is twice a length, and loops.
+#[test]
+fn penalties_have_their_compliances_row_by_row() {
+    let penalty = || Penalty {
+        radian: Some(0.3),
+        ..Penalty::new(1e5, 10.0, 1.0)
+    };
+    macro_rules! yielding {
+        ($($name:literal: $mechanism:ty, $coordinates:ty;)*) => {$(
+            compare!($name, $mechanism, f64, Double, $coordinates, Rk4, penalty());
+        )*};
+    }
+    yielding! {
+        "yielding_rod": SimplePendulum, Absolute;
+        "yielding_bars": FourBar, Relative;
+        "yielding_bars_of_bodies": FourBar, Absolute;
+        "yielding_bricard": Bricard, Relative;
+    }
 }
 
 #[test]

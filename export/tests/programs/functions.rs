@@ -96,7 +96,7 @@ fn joints_are_what_the_report_says_and_can_be_put_back() {
 }
 
 /// Two links on parallel axes, with springs that count the turns of one joint and of both, and a
-/// nut on a screw.
+/// nut on a screw, which is described to move against its thread.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
 struct Wound {
@@ -104,7 +104,10 @@ struct Wound {
     first: Body,
     #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 1.0, 0.5])]
     second: Body,
-    #[body(mass = 2.0, inertia = [0.01, 0.01, 0.02], position = [1.0, 0.0, 0.0])]
+    #[body(
+        mass = 2.0, inertia = [0.01, 0.01, 0.02],
+        position = [1.0, 0.0, 0.0], velocity = [0.0, 0.0, 0.3]
+    )]
     nut: Body,
     #[joint(between = [ground, first], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
     shoulder: Revolute,
@@ -124,8 +127,14 @@ struct Wound {
 #[test]
 fn joints_whose_turns_are_counted_are_set_over_all_turns() {
     let wound = Wound::default();
-    let export = wound.export(StandardLagrange).named("wound");
-    let source = export.c().expect("exported");
+    let export = || wound.export(StandardLagrange).named("wound");
+    let refused = export().c().expect_err("it moves against its thread");
+    assert!(refused.to_string().contains("joint `thread`"), "{refused}");
+    let mut bodies = wound.described_state().expect("described");
+    let assembled = wound.assemble(0.0, &mut bodies);
+    assembled.expect("the screw turns");
+    let source = export().starting_from(&wound, &bodies).c();
+    let source = source.expect("exported");
     let program = program(
         &source,
         "wound_joints joints;",
@@ -134,7 +143,7 @@ fn joints_whose_turns_are_counted_are_set_over_all_turns() {
         "state",
     );
     let stepper = wound.stepper(StandardLagrange, Rk4).expect("described");
-    let start = stepper.initial_state().expect("described");
+    let start = stepper.state_of(&bodies).expect("assembled");
     let h = Wound::HANDLES;
     for angles in [[0.3, -0.7, 1.0], [7.0, -9.0, 20.0], [-30.0, 31.0, -4.0]] {
         let rates = [0.5, -2.0, 3.0];

@@ -4,7 +4,7 @@ use crate::compiled::{Program, random_state};
 use holonom::mechanism::{Absolute, AtTime, JointLimits, Relative, Stabilisation};
 use holonom::mechanism::{Coordinates, TracedCoordinates};
 use holonom::prelude::*;
-use holonom::state::Vector;
+use holonom::state::{Array, Vector};
 use holonom::traced::{impact, projected};
 use holonom_export::{Double, Export, ExportExt as _, Source};
 use rand::{RngExt as _, SeedableRng as _};
@@ -140,7 +140,7 @@ fn compare<C: TracedCoordinates<Bars> + Coordinates<Bars>>(name: &str, stop: f64
         position: 0.0,
         compliance: 0.0,
     };
-    let (own, coefficients) = C::prepare(&parameters, &rigid);
+    let (own, coefficients) = C::prepare(&parameters, &rigid, &Array::zeros());
     let absolute = Bars::prepare(&parameters);
     let at = AtTime::<_, Bars, C> {
         own: &own,

@@ -1,7 +1,8 @@
 //! What cannot be exported, and by which error: the table of the README, line by line.
 
 use crate::limits::Bars;
-use holonom::mechanism::Relative;
+use crate::rollout::Balancer;
+use holonom::mechanism::{Absolute, Relative};
 use holonom::prelude::*;
 use holonom_export::{Double, Export, ExportError, ExportExt as _};
 use holonom_models::FourBar;
@@ -24,6 +25,7 @@ fn joints() -> Export<FourBar, Double, Relative> {
 fn refused() -> Vec<(ExportError, &'static str)> {
     let bars = FourBar::default();
     let wide = Bars::new(5.0).expect("finite");
+    let balancer = Balancer::new(0.2).expect("a height");
     let mut spoiled = Bars::new(0.9).expect("finite");
     spoiled.stop = f64::NAN;
     let compared = joints().reading("side", "", |view| {
@@ -41,12 +43,14 @@ fn refused() -> Vec<(ExportError, &'static str)> {
             "the limits of joint `left_foot` are a turn or more apart",
         ),
         (
-            bars.export(Penalty::default()).c().err(),
-            "export with `StandardLagrange` or `Baumgarte`",
+            bars.export(AugmentedLagrangian::default()).c().err(),
+            "this formulation iterates",
         ),
         (
-            bars.export(AugmentedLagrangian::default()).c().err(),
-            "export with `StandardLagrange` or `Baumgarte`",
+            Export::<_, Double, Absolute>::new(&balancer, Penalty::default())
+                .c()
+                .err(),
+            "compliances of equations follow from lengths",
         ),
         (compared.c().err(), "`side` compares numbers"),
         (

@@ -14,7 +14,7 @@ use rand_chacha::ChaCha8Rng;
 /// A wheel on a pendulum, at a height (m); the motor turns the wheel against the pendulum.
 #[derive(Clone, Copy, Debug, Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
-struct Balancer {
+pub(crate) struct Balancer {
     #[param(like = 0.2)]
     height: f64,
     #[input]

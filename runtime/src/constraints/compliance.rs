@@ -1,10 +1,10 @@
 //! The compliance of every row, from the factor of a penalty.
 
-use crate::constraints::rows::Rows;
+use crate::constraints::rows::{Rows, fraction, moving};
 use crate::error::{Fault, StartFault};
-use crate::math::scalar::Real;
+use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::{Mechanism, Stabilisation, Terms};
-use crate::state::vector::Array;
+use crate::state::vector::{Array, StateParts as _};
 
 /// A compliance below so many `EPSILON` of what a row yields to a unit load is lost in the
 /// round-off of it: of rows that depend on others nothing else is left.
@@ -16,7 +16,7 @@ pub(crate) const RESOLVED: f64 = 64.0;
 /// # Errors
 /// [`StartFault::PenaltyFactor`] where equations are kept that depend on others and the compliance
 /// is lost in round-off.
-pub(crate) fn compliances<S: Real, M: Mechanism, T: Terms>(
+pub fn compliances<S: Real, M: Mechanism, T: Terms>(
     constants: &M::Constants<S>,
     stabilisation: &Stabilisation<S>,
     radian: S,
@@ -48,5 +48,31 @@ pub(crate) fn compliances<S: Real, M: Mechanism, T: Terms>(
             }))
         }
         _ => Ok(compliances),
+    }
+}
+
+/// Hands over all numbers that the units of rows, and so their compliances, are made of: what none
+/// of these depends on changes no compliance. For numbers that cannot be compared, as units are
+/// chosen by comparisons.
+pub fn numbers_of_units<S: Scalar, M: Mechanism>(
+    constants: &M::Constants<S>,
+    mut each: impl FnMut(S),
+) {
+    let described = M::initial_state(constants);
+    let jacobian = M::jacobian(constants, S::zero(), &described);
+    let mut all = |numbers: &[S]| numbers.iter().for_each(|&number| each(number));
+    all(described.coordinates().as_slice());
+    all(jacobian.as_slice());
+    for (joint, info) in M::REPORT.joints.iter().enumerate() {
+        for place in 0..info.bodies.len() {
+            all(&M::joint_point(constants, joint, place));
+        }
+    }
+    if M::REPORT.curved {
+        let rest = moving::<S, M>(&described, |_| S::zero());
+        let motion = moving::<S, M>(&described, fraction);
+        for state in [rest, motion] {
+            all(M::gamma(constants, S::zero(), &state).as_slice());
+        }
     }
 }

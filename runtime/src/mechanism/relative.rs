@@ -41,20 +41,13 @@ impl<M: JointCoordinates> Coordinates<M> for Relative {
         own
     }
 
-    /// The compliances are those of the same rows of the bodies, so that one coefficient means the
-    /// same in both coordinates.
     fn own<S: Scalar>(
         parameters: &M::Parameters<S>,
         stabilisation: &Stabilisation<S>,
         absolute: &AbsoluteEquations<S, M>,
     ) -> Self::Own<S> {
         let constants = M::prepare_joints(parameters);
-        let mut compliances = M::ClosingMultipliers::<S>::zeros();
-        let rows = compliances.as_mut_slice().iter_mut();
-        for (compliance, row) in rows.zip(M::JOINT_REPORT.rows) {
-            let known = row.and_then(|row| absolute.compliances.as_slice().get(row));
-            *compliance = known.copied().unwrap_or(stabilisation.compliance);
-        }
+        let compliances = closing_compliances::<S, M>(&absolute.compliances, stabilisation);
         Equations {
             coefficients: M::joint_coefficients(&constants, stabilisation, &compliances),
             constants,
@@ -519,4 +512,19 @@ fn coordinates_of<S: Scalar, X: StateParts<S>>(bodies: &mut X) -> &mut [S] {
 
 fn velocities_of<S: Scalar, X: StateParts<S>>(bodies: &mut X) -> &mut [S] {
     bodies.velocities_mut().as_mut_slice()
+}
+
+/// The compliances of the equations that close loops: those of the same rows of the bodies, so that
+/// one coefficient means the same in both coordinates.
+pub(crate) fn closing_compliances<S: Scalar, M: JointCoordinates>(
+    compliances: &M::Multipliers<S>,
+    stabilisation: &Stabilisation<S>,
+) -> M::ClosingMultipliers<S> {
+    let mut closing = M::ClosingMultipliers::<S>::zeros();
+    let rows = closing.as_mut_slice().iter_mut();
+    for (compliance, row) in rows.zip(M::JOINT_REPORT.rows) {
+        let known = row.and_then(|row| compliances.as_slice().get(row));
+        *compliance = known.copied().unwrap_or(stabilisation.compliance);
+    }
+    closing
 }

@@ -10,7 +10,7 @@ use crate::math::versine;
 use crate::mechanism::coordinates::{Absolute, Coordinates, Relative};
 use crate::mechanism::joint_kernels::{JointCoordinates, JointParts, JointReport};
 use crate::mechanism::kernels::{Mechanism, Normalised, Plain, Stabilisation};
-use crate::mechanism::relative::{bodies_by, recount};
+use crate::mechanism::relative::{bodies_by, closing_compliances, recount};
 use crate::mechanism::report::BodyKind;
 use crate::state::vector::{Array, MovingState as _, StateParts};
 
@@ -30,10 +30,12 @@ pub trait TracedCoordinates<M: Mechanism>: Coordinates<M> {
     /// The report on joint coordinates, where these are the coordinates.
     const JOINTS: Option<&'static JointReport>;
 
-    /// What depends on parameters, and what depends on a formulation without compliance.
+    /// What depends on parameters, and what depends on a formulation with these compliances of all
+    /// equations of the bodies: zeros for one without.
     fn prepare<S: Scalar>(
         parameters: &M::Parameters<S>,
         stabilisation: &Stabilisation<S>,
+        compliances: &M::Multipliers<S>,
     ) -> (Self::Constants<S>, Self::Coefficients<S>);
 
     /// The constants with these parameters, of which those that depend on inputs are computed
@@ -93,9 +95,10 @@ impl<M: Mechanism> TracedCoordinates<M> for Absolute<Normalised> {
     fn prepare<S: Scalar>(
         parameters: &M::Parameters<S>,
         stabilisation: &Stabilisation<S>,
+        compliances: &M::Multipliers<S>,
     ) -> (M::Constants<S>, M::Coefficients<S>) {
         let constants = M::prepare(parameters);
-        let coefficients = M::coefficients_by_row(&constants, stabilisation, &Array::zeros());
+        let coefficients = M::coefficients_by_row(&constants, stabilisation, compliances);
         (constants, coefficients)
     }
 
@@ -145,9 +148,11 @@ impl<M: JointCoordinates> TracedCoordinates<M> for Relative {
     fn prepare<S: Scalar>(
         parameters: &M::Parameters<S>,
         stabilisation: &Stabilisation<S>,
+        compliances: &M::Multipliers<S>,
     ) -> (M::JointConstants<S>, M::JointCoefficients<S>) {
         let constants = M::prepare_joints(parameters);
-        let coefficients = M::joint_coefficients(&constants, stabilisation, &Array::zeros());
+        let own = closing_compliances::<S, M>(compliances, stabilisation);
+        let coefficients = M::joint_coefficients(&constants, stabilisation, &own);
         (constants, coefficients)
     }
 

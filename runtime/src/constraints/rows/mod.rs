@@ -510,7 +510,10 @@ fn counted<S: Real, M: Mechanism>(
 }
 
 /// The state with other velocities: translations at some speed by their place, no rotation.
-fn moving<S: Real, M: Mechanism>(state: &M::State<S>, speed: impl Fn(usize) -> S) -> M::State<S> {
+pub(crate) fn moving<S: Scalar, M: Mechanism>(
+    state: &M::State<S>,
+    speed: impl Fn(usize) -> S,
+) -> M::State<S> {
     let mut moving = M::State::from_parts(*state.coordinates(), Array::zeros());
     let velocities = moving.velocities_mut().as_mut_slice();
     for body in M::REPORT.bodies {
@@ -523,6 +526,6 @@ fn moving<S: Real, M: Mechanism>(state: &M::State<S>, speed: impl Fn(usize) -> S
 
 /// Components that no mechanism is made of, from -1/2 to 1/2: the fractions of multiples of the
 /// golden section.
-pub(crate) fn fraction<S: Real>(place: usize) -> S {
+pub(crate) fn fraction<S: Scalar>(place: usize) -> S {
     S::constant((place + 1) as f64 * 0.618_033_988_749_895 % 1.0 - 0.5)
 }
