@@ -68,7 +68,7 @@ fn apart(pen: &mut Pen) {
 const HEAD: V = V::new(0.0, -34.0, 8.0);
 const TAIL: V = V::new(0.0, 34.0, 8.0);
 
-const CELLS: [Cell; 24] = [
+const CELLS: [Cell; 27] = [
     ("Spherical", "point", |pen| {
         base(pen);
         pen.cylinder(Of::J, v(0.0, 8.0, 4.0), v(0.0, 56.0, 26.0), 6.0);

@@ -12,6 +12,7 @@
 //! | [`parts`] | assemblies: a left and a right, several equal legs, each described once |
 //! | [`mod@reference`] | the whole language on one page: every attribute, every joint with axes, zeros and signs |
 //! | [`joint`] | how to define your own joint |
+//! | [`rolling`] | wheels, balls and skates; equations of velocities of your own |
 //! | [`forces`] | gravity, springs, actuators, closures; drivers, kinematics, inverse dynamics; power and energy |
 //! | [`data`] | cams, recorded motions and curves of forces from tables; joints driven from outside |
 //! | [`events`] | stops, switches and limits at their exact time; controllers at their period |
@@ -136,6 +137,9 @@ pub mod reference {}
 #[doc = include_str!("joint.md")]
 #[doc = include_str!("typeset.html")]
 pub mod joint {}
+
+#[doc = include_str!("rolling.md")]
+pub mod rolling {}
 
 #[doc = include_str!("forces.md")]
 #[doc = include_str!("typeset.html")]
