@@ -93,6 +93,7 @@ macro_rules! catalogue {
 }
 
 catalogue! {
+    bicycle: Bicycle;
     bricard: Bricard;
     cart_pole: CartPole;
     clock: Clock;

@@ -310,6 +310,7 @@ macro_rules! every_model {
 }
 
 every_model! {
+    bicycle Bicycle,
     bricard Bricard,
     cart_pole CartPole,
     door Door,

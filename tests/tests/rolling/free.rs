@@ -63,7 +63,15 @@ fn steady(lean: f64, turn: f64) -> (StateOf<Disc>, f64) {
 fn a_disc_rolls_in_a_steady_circle() {
     let h = Disc::HANDLES;
     let disc = Disc::new(0.0).expect("a disc");
-    for (lean, turn) in [(0.3, 2.0), (0.8, -3.0), (-0.2, 1.5), (1.3, 6.0)] {
+    for (lean, turn) in [
+        (0.3, 2.0),
+        (0.8, -3.0),
+        (-0.2, 1.5),
+        (1.3, 6.0),
+        // Nearly flat, where a coin rings.
+        (core::f64::consts::FRAC_PI_2 - 2e-4, 1010.0),
+        (0.5, 1e4),
+    ] {
         let (state, circle) = steady(lean, turn);
         let period = core::f64::consts::TAU / turn.abs();
         let mut places = Vec::new();
