@@ -194,7 +194,6 @@ fn single_precision_and_faults() {
             if time > 0.55 {
                 return Err(Fault::Analysis(AnalysisFault::NotDriven {
                     degrees_of_freedom: 1,
-                    velocity_rows: &[],
                 }));
             }
             Ok(curved(time, state))

@@ -160,7 +160,6 @@ fn where_rates_end_the_system_says_why() {
             if time > self.0 {
                 Err(Fault::Analysis(AnalysisFault::NotDriven {
                     degrees_of_freedom: 1,
-                    velocity_rows: &[],
                 }))
             } else {
                 Ok([-state[0]])
