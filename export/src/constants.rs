@@ -2,7 +2,7 @@
 
 use holonom::mechanism::{Coordinates, Stabilisation, TracedCoordinates};
 use holonom::state::Array as _;
-use holonom::{Mechanism, Scalar as _};
+use holonom::{Mechanism, Scalar};
 
 use crate::export::{CONSTANTS, Export, INPUTS, PARAMETERS, argument, outputs, structure, written};
 use crate::limits::constants_of;
@@ -17,6 +17,15 @@ pub(crate) type AllConstants<P, M, C> = (
     <C as Coordinates<M>>::Coefficients<Traced<P>>,
     <M as Mechanism>::Constants<Traced<P>>,
 );
+
+/// Constraints without a term of `Phi` and without compliance.
+pub(crate) fn rigid<S: Scalar>() -> Stabilisation<S> {
+    Stabilisation {
+        rate: S::zero(),
+        position: S::zero(),
+        compliance: S::zero(),
+    }
+}
 
 /// A number that depends on parameters and inputs.
 #[derive(Clone, Copy, Debug)]

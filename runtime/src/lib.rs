@@ -114,9 +114,10 @@ pub mod spline {
     pub use crate::math::spline::{Spline, SplineFault, uniform_knots};
 }
 
-/// Limits and a projection for programs in other languages.
+/// Limits, a projection and what a start may be, for programs in other languages.
 #[doc(hidden)]
 pub mod traced {
+    pub use crate::assembly::consistent_start::{StartRow, check_start, start_rows};
     pub use crate::constraints::traced::{Projected, projected};
     pub use crate::mechanism::AtTime;
     pub use crate::nonsmooth::traced::{LimitedJoint, impact, limited_joint};
