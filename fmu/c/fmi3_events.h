@@ -12,8 +12,6 @@
 
 #include "fmi3_mechanism.h"
 
-#include <stdio.h>
-
 /* A joint is at a limit that is not farther away (rad, m). */
 #define AT_LIMIT 1e-9
 #define REST 1e-4

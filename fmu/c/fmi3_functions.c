@@ -339,7 +339,8 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
 {
-    return unless_beyond(instance);
+    const fmi3Status status = unless_open(instance);
+    return status == fmi3OK ? unless_beyond(instance) : status;
 }
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *need_update,
