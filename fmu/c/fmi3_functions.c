@@ -375,6 +375,7 @@ fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[
         return failed(m, fmi3Error, "not this many event indicators");
     }
     indicate(m);
+    (void)is_leaving(m);
     memcpy(indicators, m->indicators, count * sizeof *indicators);
     return fmi3OK;
 }
