@@ -20,6 +20,15 @@ pub(crate) type AllConstants<P, M, C> = (
     <M as Mechanism>::Constants<Traced<P>>,
 );
 
+/// Constraints without a term of `Phi` and without compliance.
+pub(crate) fn rigid<S: Scalar>() -> Stabilisation<S> {
+    Stabilisation {
+        rate: S::zero(),
+        position: S::zero(),
+        compliance: S::zero(),
+    }
+}
+
 /// A number that depends on parameters and inputs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Constant {

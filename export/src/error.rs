@@ -4,6 +4,7 @@ use std::error::Error;
 use std::{fmt, io};
 
 use holonom::Fault;
+use holonom::error::StartFault;
 
 /// Why a mechanism, or a function of it, is not exported.
 #[derive(Debug)]
@@ -11,6 +12,10 @@ use holonom::Fault;
 pub enum ExportError {
     /// The mechanism or its start was refused.
     Mechanism(Fault),
+    /// A joint is open at the start, or its bodies move against it: a run would refuse that.
+    /// [`Export::assembled`](crate::Export::assembled) corrects a described start,
+    /// [`Export::starting_from`](crate::Export::starting_from) sets another one.
+    Open(StartFault),
     /// The formulation iterates: [`AugmentedLagrangian`](holonom::AugmentedLagrangian) solves its
     /// system as often as the numbers ask for, the others once.
     Formulation,
@@ -54,6 +59,15 @@ impl fmt::Display for ExportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Mechanism(fault) => fault.fmt(f),
+            Self::Open(fault) => {
+                // What corrects it is another method than that of a run.
+                let text = fault.to_string();
+                let open = text.split_once(" at the start").map_or(&*text, |(open, _)| open);
+                write!(
+                    f,
+                    "{open} at the start: `.assembled(&mechanism)` corrects the described start, `.starting_from(&mechanism, &state)` sets another one"
+                )
+            }
             Self::Formulation => f.write_str(
                 "this formulation iterates: export with `StandardLagrange`, `Baumgarte` or `Penalty`",
             ),
@@ -87,8 +101,19 @@ impl Error for ExportError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         match self {
             Self::Mechanism(fault) => Some(fault),
+            Self::Open(fault) => Some(fault),
             Self::File(error) => Some(error),
             _ => None,
+        }
+    }
+}
+
+impl ExportError {
+    /// Why a start is refused.
+    pub(crate) fn of_start(fault: Fault) -> Self {
+        match fault {
+            Fault::Start(open @ StartFault::Inconsistent { .. }) => Self::Open(open),
+            other => Self::Mechanism(other),
         }
     }
 }

@@ -6,14 +6,16 @@ use holonom::dynamics::Problem;
 use holonom::formulation::Formulation;
 use holonom::mechanism::{Terms, TracedCoordinates};
 use holonom::state::{Array, MovingState, Vector as _};
-use holonom::{Fault, Mechanism, Real, Rk4, StandardLagrange, Stepper, View};
+use holonom::traced::check_start;
+use holonom::{Fault, Mechanism, MechanismExt as _, Real, Rk4, StandardLagrange, Stepper, View};
 
-use crate::constants::Constant;
+use crate::constants::{Constant, rigid};
 use crate::error::ExportError;
 use crate::layout::{self, Element};
 use crate::limits::{Limited, limits_of};
 use crate::names::identifier;
 use crate::number::{Double, Precision, Traced};
+use crate::openings::Openings;
 use crate::program::{Argument, Function, Kind, Member, Output, Program, Struct};
 use crate::system::{StateOf, numbers, state_of};
 use crate::tape::{Obstacle, Operation, Place, Tape, traced, with};
@@ -65,6 +67,7 @@ const OWN: &[&str] = &[
     "NOT_FINITE",
     "LIMIT",
     "NOT_CONVERGED",
+    "OPEN",
     "H",
     "FUNCTION",
     "RESTRICT",
@@ -110,6 +113,10 @@ pub struct Export<M: Mechanism, P = Double, C = <M as Mechanism>::Coordinates> {
     pub(crate) defaults: Vec<f64>,
     /// The numbers of the start.
     pub(crate) start: Vec<f64>,
+    /// What is wrong with the start.
+    start_fault: Option<ExportError>,
+    /// Joints that may be open.
+    pub(crate) openings: Openings,
     /// The least pivot that is accepted.
     pub(crate) least_pivot: f64,
     pub(crate) has_pivot: bool,
@@ -120,8 +127,6 @@ pub struct Export<M: Mechanism, P = Double, C = <M as Mechanism>::Coordinates> {
     /// Whether what one side of a choice alone needs stands behind a branch.
     pub(crate) has_branches: bool,
     pub(crate) fault: Option<ExportError>,
-    /// Why the program cannot begin in the described state.
-    start_fault: Option<Fault>,
     types: PhantomData<(M, P, C)>,
 }
 
@@ -150,6 +155,8 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             values: values::of(&M::REPORT),
             defaults: Vec::new(),
             start: Vec::new(),
+            start_fault: None,
+            openings: Openings::default(),
             least_pivot: VANISHED
                 * if P::IS_SINGLE {
                     f64::from(f32::EPSILON)
@@ -162,7 +169,6 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             is_passing_limits: false,
             has_branches: true,
             fault: None,
-            start_fault: None,
             types: PhantomData,
         };
         if F::ITERATED {
@@ -184,9 +190,9 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self.defaults = parameters.as_slice().to_vec();
         self.limited = limits_of::<M>(&parameters);
         if P::IS_SINGLE {
-            self.start_described::<f32>(mechanism)?;
+            self.described::<f32>(mechanism)?;
         } else {
-            self.start_described::<f64>(mechanism)?;
+            self.described::<f64>(mechanism)?;
         }
         self.layout();
         let radian = formulation.radian();
@@ -195,23 +201,33 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self.kernel::<F::Terms>();
         self.of_joints(&parameters);
         self.of_limits();
+        self.of_openings();
         Ok(())
     }
 
-    /// Begins in the described state. One that opens joints is noted, as another start may be set.
-    fn start_described<S: Real>(&mut self, mechanism: &M) -> Result<(), ExportError> {
-        let stepper = Stepper::<Problem<_, _, S>, _>::new(mechanism, StandardLagrange, Rk4)?;
-        match stepper.coordinates::<C>().initial_state() {
-            Ok(state) => self.start_from(&state),
-            Err(fault) => {
-                self.start_fault = Some(fault);
-                let parameters = mechanism.parameters::<S>()?;
-                let rigid = StandardLagrange.stabilisation()?;
-                let (own, _) = C::prepare(&parameters, &rigid, &Array::zeros());
-                let bodies = M::initial_state(&M::prepare(&parameters));
-                self.start_from(&C::of_bodies(&own, &bodies));
-            }
+    /// Begins as the attributes of the bodies say, or nearly so where a joint is open: then another
+    /// start has to be given.
+    fn described<S: Real>(&mut self, mechanism: &M) -> Result<(), ExportError> {
+        let parameters = mechanism.parameters::<S>()?;
+        let constants = M::prepare(&parameters);
+        let bodies = M::initial_state(&constants);
+        self.openings = Openings::of::<S, M, C>(&constants, &bodies);
+        if let Err(fault) = self.begin_with::<S>(mechanism, &bodies) {
+            self.start_fault = Some(ExportError::of_start(fault));
+            let (own, _) = C::prepare(&parameters, &rigid(), &Array::zeros());
+            self.start_from(&C::of_bodies(&own, &bodies));
         }
+        Ok(())
+    }
+
+    /// Begins with a state of the bodies, if a run could.
+    fn begin_with<S: Real>(&mut self, mechanism: &M, bodies: &M::State<S>) -> Result<(), Fault> {
+        let stepper = Stepper::<Problem<_, _, S>, _>::new(mechanism, StandardLagrange, Rk4)?;
+        if !C::IS_RELATIVE {
+            let constants = stepper.dynamics().constants();
+            check_start::<S, M>(constants, (S::zero(), S::one()), bodies, false)?;
+        }
+        self.start_from(&stepper.coordinates::<C>().state_of(bodies)?);
         Ok(())
     }
 
@@ -331,18 +347,29 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     /// Begins with this state of the bodies, in the place of the described one.
     #[must_use]
     pub fn starting_from(mut self, mechanism: &M, bodies: &M::State<f64>) -> Self {
-        let stepper = Stepper::new(mechanism, StandardLagrange, Rk4);
-        let state = stepper.and_then(|stepper| stepper.coordinates::<C>().state_of(bodies));
-        match state {
-            Ok(state) => {
-                self.start_fault = None;
-                self.start_from(&state);
-            }
-            Err(fault) => {
-                self.fault.get_or_insert(fault.into());
-            }
-        }
+        let begun = self.begin_with(mechanism, bodies);
+        self.start_fault = begun.err().map(ExportError::of_start);
         self
+    }
+
+    /// Corrects the described start onto the constraints, as
+    /// [`Simulation::assembled`](holonom::Simulation::assembled) does: loops whose description is
+    /// open are closed on its branch.
+    #[must_use]
+    pub fn assembled(mut self, mechanism: &M) -> Self {
+        let begun = if P::IS_SINGLE {
+            self.assemble::<f32>(mechanism)
+        } else {
+            self.assemble::<f64>(mechanism)
+        };
+        self.start_fault = begun.err().map(ExportError::of_start);
+        self
+    }
+
+    fn assemble<S: Real>(&mut self, mechanism: &M) -> Result<(), Fault> {
+        let mut bodies = mechanism.described_state::<S>()?;
+        mechanism.assemble(S::zero(), &mut bodies)?;
+        self.begin_with(mechanism, &bodies)
     }
 
     /// A step passes the limits of joints as if there were none. Else it returns `LIMIT`, and
@@ -439,8 +466,8 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     /// # Errors
     /// What was wrong with the mechanism or with one of its functions.
     pub fn checked(mut self) -> Result<Self, ExportError> {
-        let of_start = self.start_fault.take().map(ExportError::from);
-        if let Some(fault) = self.fault.take().or(of_start) {
+        let fault = self.fault.take().or(self.start_fault.take());
+        if let Some(fault) = fault {
             return Err(fault);
         }
         if self.program.structs[SLOPE].members.is_empty() {

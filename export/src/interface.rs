@@ -8,6 +8,7 @@ use holonom::mechanism::{Freedom, TracedCoordinates};
 use crate::c::used_constants;
 use crate::export::{CONSTANTS, Export, STATE};
 use crate::number::Precision;
+use crate::openings::Opening;
 use crate::program::{Function, Kind, Member};
 use crate::values::Value;
 
@@ -30,6 +31,9 @@ pub struct Interface {
     pub gaps: Vec<Quantity>,
     /// The members of its struct of switches.
     pub switches: Vec<Quantity>,
+    /// What its struct of openings is about, which has two members for each: by how much it is
+    /// open, and how fast it opens.
+    pub openings: Vec<Opens>,
     /// Whether the program has a struct of constants.
     pub has_constants: bool,
 }
@@ -46,6 +50,18 @@ pub struct Quantity {
     pub is_array: bool,
     /// The numbers that it has at the start. A reading has none.
     pub start: Vec<f64>,
+}
+
+/// Equations of a joint that may be violated.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Opens {
+    /// The field of the joint.
+    pub joint: &'static str,
+    /// The unit, `m` or `rad`.
+    pub unit: &'static str,
+    /// The violation that a start may have.
+    pub accepted: f64,
 }
 
 /// A coordinate or a velocity, as a joint counts it.
@@ -110,6 +126,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 members("gaps")
             },
             switches: members("switches"),
+            openings: self.openings.all.iter().map(opens).collect(),
             has_constants: used_constants(&self.program).iter().any(Option::is_some),
         }
     }
@@ -199,6 +216,14 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             state.quantity.about = of_joint(&state.quantity.about);
             state.about_rate = of_joint(&state.about_rate);
         }
+    }
+}
+
+fn opens(of: &Opening) -> Opens {
+    Opens {
+        joint: of.joint,
+        unit: if of.is_length { "m" } else { "rad" },
+        accepted: of.accepted,
     }
 }
 

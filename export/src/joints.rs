@@ -1,12 +1,12 @@
 //! Functions of mechanisms in joint coordinates: what joints have, and kernels in their rates.
 
 use holonom::mechanism::{
-    Freedom, HasInverse, HasMassMatrix, JointMotion, JointReport, Relative, Stabilisation,
-    TracedCoordinates,
+    Freedom, HasInverse, HasMassMatrix, JointMotion, JointReport, Relative, TracedCoordinates,
 };
 use holonom::state::{Array, MovingState as _, Vector as _};
 use holonom::{JointCoordinates, Mechanism, Scalar};
 
+use crate::constants::rigid;
 use crate::error::ExportError;
 use crate::export::{CONSTANTS, Export, STATE, TIMES, argument, outputs, structure, written};
 use crate::layout::stem;
@@ -113,12 +113,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         if report.rewraps {
             return None;
         }
-        let rigid = Stabilisation {
-            rate: 0.0,
-            position: 0.0,
-            compliance: 0.0,
-        };
-        let (own, _) = C::prepare(parameters, &rigid, &Array::zeros());
+        let (own, _) = C::prepare(parameters, &rigid(), &Array::zeros());
         let mut state = C::State::<f64>::zeros();
         for (place, &number) in self.start.iter().enumerate() {
             state.set_element(place, number);

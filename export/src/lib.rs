@@ -14,6 +14,7 @@ mod limits;
 mod linear;
 mod names;
 mod number;
+mod openings;
 mod program;
 mod projection;
 mod step;
@@ -24,7 +25,7 @@ mod values;
 pub use c::{Rollout, Source};
 pub use error::ExportError;
 pub use export::{Export, ExportExt};
-pub use interface::{Coordinate, Interface, Quantity};
+pub use interface::{Coordinate, Interface, Opens, Quantity};
 pub use number::{Double, Precision, Single, Traced};
 #[doc(hidden)]
 pub use system::Called;

@@ -107,7 +107,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
     }
 
     /// Adds a function that writes a struct of a state.
-    fn reading_struct(
+    pub(crate) fn reading_struct(
         &mut self,
         [name, about]: [&'static str; 2],
         (function, about_function): (&str, &str),

@@ -112,6 +112,8 @@ pub(crate) enum Guard {
     Limits,
     /// That an iteration has converged.
     Converged,
+    /// That no joint is open.
+    Closed,
 }
 
 impl Guard {
@@ -120,6 +122,7 @@ impl Guard {
         match self {
             Self::Limits => "LIMIT",
             Self::Converged => "NOT_CONVERGED",
+            Self::Closed => "OPEN",
         }
     }
 }

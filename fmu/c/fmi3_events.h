@@ -5,14 +5,12 @@
  * At a limit the rate of the joint turns back by the restitution of the limit. An approach that is
  * slower than REST times the fastest one so far has none. A unit has no mode for a joint that a limit
  * holds: the simulation ends where a joint does not move there and is pressed against it, and where
- * its bounces are shorter than the steps of an importer.
+ * an importer sees nothing of a bounce between two impacts.
  */
 #ifndef FMI3_EVENTS_H
 #define FMI3_EVENTS_H
 
 #include "fmi3_mechanism.h"
-
-#include <stdio.h>
 
 /* A joint is at a limit that is not farther away (rad, m). */
 #define AT_LIMIT 1e-9
@@ -80,7 +78,8 @@ static fmi3Status unless_beyond(mechanism *m)
     return fmi3OK;
 }
 
-/* Whether a joint is beyond a limit and goes farther, behind a step of an importer. */
+/* Notes which joints are within their limits, as an importer has seen it: behind a step, or by event
+ * indicators within one. Whether a joint is beyond a limit and goes farther. */
 static bool is_leaving(mechanism *m)
 {
     fmu_gaps gaps;

@@ -339,7 +339,8 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
 {
-    return unless_beyond(instance);
+    const fmi3Status status = unless_open(instance);
+    return status == fmi3OK ? unless_beyond(instance) : status;
 }
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *need_update,
@@ -374,6 +375,7 @@ fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[
         return failed(m, fmi3Error, "not this many event indicators");
     }
     indicate(m);
+    (void)is_leaving(m);
     memcpy(indicators, m->indicators, count * sizeof *indicators);
     return fmi3OK;
 }

@@ -13,12 +13,15 @@
 #include "fmi3_model.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define AT_LEAST_ONE(count) ((count) > 0 ? (count) : 1)
 #define COLUMNS (FMU_STATES + FMU_PARAMETERS + FMU_INPUTS)
 #define INDICATORS (2 * FMU_LIMITED + FMU_SWITCHES)
 #define TIMES 2
+/* The status of a state in which a joint is open. */
+#define STATUS_OPEN 6
 #define TURN 6.28318530717958647692
 
 typedef enum { TIME, STATE, DERIVATIVE, PARAMETER, INPUT, READING, INDICATOR } kind;
@@ -37,13 +40,22 @@ typedef struct {
     int against;
 } coordinate;
 
+/* Equations of a joint, and by how much they may be open at a start. */
+typedef struct {
+    const char *joint;
+    const char *unit;
+    double accepted;
+} opening;
+
 static const variable variables[] = {FMU_VARIABLES};
+static const opening openings[] = {FMU_OPENS};
 static const coordinate coordinates[] = {FMU_COORDINATES};
 /* The coordinates, each behind that which it is against. */
 static const size_t order[] = {FMU_ORDER};
 
 /* A variable, which may be compared with zero. */
 static const size_t angles = FMU_ANGLES;
+static const size_t opening_count = FMU_OPENINGS;
 
 #define VARIABLES (sizeof variables / sizeof *variables)
 
@@ -94,6 +106,35 @@ static fmi3Status discarded(const mechanism *m, int status)
         "a number is not finite",
         "a joint passes a limit, and is not at it after any part of the step"};
     return failed(m, fmi3Discard, messages[status > 0 && status < 5 ? status : 3]);
+}
+
+/* Says by how much the joint is open that is farthest beyond what is accepted; if none is, how
+ * fast one opens. */
+static fmi3Status is_open(const mechanism *m)
+{
+    fmu_openings sizes;
+    char message[300];
+    size_t worst = 0, rate = 0;
+    double most = 1.0;
+    memset(&sizes, 0, sizeof sizes);
+    fmu_get_openings(&m->constants, &m->now.state, &sizes);
+    for (size_t part = 0; part < 2 && most <= 1.0; ++part) {
+        for (size_t k = 0; k < opening_count; ++k) {
+            const double size = sizes.number[2 * k + part] / openings[k].accepted;
+            if (size > most) {
+                most = size;
+                worst = k;
+                rate = part;
+            }
+        }
+    }
+    snprintf(message, sizeof message,
+        rate ? "the bodies of joint `%s` move against it at %.3g %s/s at the start: set rates that "
+               "keep it closed"
+             : "joint `%s` is open by %.3g %s at the start: set values that close it, for the "
+               "lengths that are set",
+        openings[worst].joint, sizes.number[2 * worst + rate], openings[worst].unit);
+    return failed(m, fmi3Error, message);
 }
 
 /* The numbers of joints as those of the program. */
@@ -183,6 +224,14 @@ static void prepare(mechanism *m)
         fmu_set_inputs(&m->now.parameters, &m->now.inputs, &m->constants);
     }
     m->changed = NOTHING;
+}
+
+/* Refuses a start at which a joint is open. */
+static fmi3Status unless_open(mechanism *m)
+{
+    prepare(m);
+    const int status = fmu_check_joints(&m->constants, &m->now.state);
+    return status == STATUS_OPEN ? is_open(m) : status != 0 ? discarded(m, status) : fmi3OK;
 }
 
 static fmi3Status rates(mechanism *m)

@@ -42,7 +42,7 @@ struct Arm {
     shoulder: Revolute,
     #[joint(
         between = [upper, lower], point = [0.0, 1.0, 0.0], axis = [-1.0, 0.0, 0.0],
-        limits = [-0.4, 1.5], restitution = 0.7
+        limits = [-0.4, 0.4], restitution = 0.7
     )]
     elbow: Revolute,
     #[force(
@@ -56,14 +56,14 @@ struct Arm {
 /// A variable of a unit, and the same of our own run.
 type Column<M> = (&'static str, fn(&Sample<'_, f64, M>) -> f64);
 
-/// Writes `name.fmu`, and `name.csv` of our own run with 101 instants.
+/// Writes `name.fmu`, and `name.csv` of our own run with 101 instants; how many impacts it has.
 fn write<M, F>(
     folder: &Path,
     unit: Fmu<M, Relative>,
     mechanism: &M,
     (formulation, end): (F, f64),
     columns: &[Column<M>],
-) -> Result<(), Box<dyn Error>>
+) -> Result<usize, Box<dyn Error>>
 where
     M: JointCoordinates + Clone,
     Relative: TracedCoordinates<M>,
@@ -79,11 +79,14 @@ where
         relative: 1e-11,
         absolute: 1e-11,
     };
+    let (mut impacts, mut last) = (0, f64::NAN);
     mechanism
         .simulation(formulation, DormandPrince::new(tight))
         .joint_coordinates()
         .run(0.0..=end, every(end / 100.0), |sample| {
             // A run is shown before and after impacts as well.
+            impacts += usize::from(sample.time() == last);
+            last = sample.time();
             let periods = sample.time() / end * 100.0;
             if (periods - periods.round()).abs() > 1e-9 {
                 return;
@@ -94,10 +97,10 @@ where
         })?;
     fs::write(folder.join(format!("{name}.csv")), lines)?;
     println!(
-        "{name}: {}",
+        "{name}: {}, {impacts} impacts",
         written.platform.as_deref().unwrap_or("sources alone")
     );
-    Ok(())
+    Ok(impacts)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -112,7 +115,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .reading("height", "height of the lower link (m)", |view| {
             view.position(Arm::HANDLES.lower).z
         });
-    write(
+    let impacts = write(
         &folder,
         unit,
         &arm,
@@ -128,6 +131,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             ("height", |view| view.position(Arm::HANDLES.lower).z),
         ],
     )?;
+    // A joint that was not within its limits again since an impact would rest at the next one.
+    if impacts < 2 {
+        return Err("an arm bounces at its limits more than once".into());
+    }
 
     let mut cart = CartPole::default();
     cart.push = 1.0;
@@ -206,5 +213,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         &top,
         (StandardLagrange, 0.2),
         &[("height", |view| view.position(HeavyTop::HANDLES.top).z)],
-    )
+    )?;
+    Ok(())
 }

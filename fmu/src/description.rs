@@ -99,7 +99,9 @@ fn interfaces(document: &mut Document, of: &Description<'_>) -> io::Result<()> {
         ("providesDirectionalDerivatives", "true"),
         ("providesAdjointDerivatives", "true"),
     ];
-    document.empty("ModelExchange", &both)?;
+    // What has passed a limit, and what has been within since an impact, is seen behind a step.
+    let completed = ("needsCompletedIntegratorStep", "true");
+    document.empty("ModelExchange", &[&both[..], &[completed]].concat())?;
     let step = format!("{:?}", of.internal_step);
     let own = [
         ("canHandleVariableCommunicationStepSize", "true"),

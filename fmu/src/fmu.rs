@@ -147,6 +147,13 @@ impl<M: Mechanism, C: TracedCoordinates<M>> Fmu<M, C> {
         self
     }
 
+    /// Corrects the described start onto the constraints, see [`Export::assembled`].
+    #[must_use]
+    pub fn assembled(mut self, mechanism: &M) -> Self {
+        self.export = self.export.assembled(mechanism);
+        self
+    }
+
     /// Passes limits of joints as if there were none. Else joints turn back there, see the
     /// [documentation of the crate](crate#limits-and-laws-that-switch).
     #[must_use]

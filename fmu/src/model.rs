@@ -50,6 +50,14 @@ fn gaps(of: &Interface) -> impl Iterator<Item = String> {
     names.chain(["\"\"".to_owned()])
 }
 
+/// What may be open: joint, unit, and what a start may have; and an end.
+fn openings(of: &Interface) -> impl Iterator<Item = String> {
+    let openings = of.openings.iter();
+    let openings =
+        openings.map(|of| format!("{{{:?}, {:?}, {:?}}}", of.joint, of.unit, of.accepted));
+    openings.chain(["{\"\", \"\", 1.0}".to_owned()])
+}
+
 /// The text of the header.
 pub(crate) fn header(
     of: &Interface,
@@ -79,6 +87,7 @@ pub(crate) fn header(
 #define FMU_READINGS {readings}
 #define FMU_LIMITED {limited}
 #define FMU_SWITCHES {switches}
+#define FMU_OPENINGS {opening}
 
 /* Kind, first number, count of numbers. */
 #define FMU_VARIABLES \\
@@ -98,6 +107,10 @@ pub(crate) fn header(
 #define FMU_GAPS \\
     {gaps}
 
+/* Joint, unit, and by how much it may be open at a start. */
+#define FMU_OPENS \\
+    {opens}
+
 ",
         version = env!("CARGO_PKG_VERSION"),
         n = of.name,
@@ -105,7 +118,9 @@ pub(crate) fn header(
         readings = of.readings.len(),
         limited = of.gaps.len() / 3,
         switches = of.switches.len(),
+        opening = of.openings.len(),
         gaps = list(gaps(of)),
+        opens = list(openings(of)),
         variables = list(variables.iter().map(variable)),
         coordinates = list(states.iter().map(coordinate)),
         order = list(order(states).iter().map(usize::to_string)),
@@ -126,6 +141,7 @@ pub(crate) fn header(
         ("sensitivities", "sensitivities", readings * columns),
         ("gaps", "gaps", of.gaps.len()),
         ("switches", "switches", of.switches.len()),
+        ("openings", "openings", 2 * of.openings.len()),
     ] {
         union(&of.name, name, of_program, numbers, columns, &mut text);
     }
@@ -258,7 +274,7 @@ fn of_parameters(of: &Interface) -> [Wrapper; 5] {
 }
 
 /// Those that are given constants and a state.
-fn of_states(of: &Interface) -> [Wrapper; 6] {
+fn of_states(of: &Interface) -> [Wrapper; 8] {
     let n = &of.name;
     let constants = "const fmu_constants *constants, ";
     let handed = if of.has_constants { "constants, " } else { "" };
@@ -268,6 +284,11 @@ fn of_states(of: &Interface) -> [Wrapper; 6] {
         } else {
             String::new()
         }
+    };
+    let check = if of.openings.is_empty() {
+        "return 0;".to_owned()
+    } else {
+        format!("return (int){n}_check_joints({handed}&state->of);")
     };
     let impact = if of.gaps.is_empty() {
         "return 0;".to_owned()
@@ -286,6 +307,18 @@ fn of_states(of: &Interface) -> [Wrapper; 6] {
             "get_switches",
             format!("{constants}const fmu_state *state, fmu_switches *switches"),
             reading("switches", !of.switches.is_empty()),
+        ),
+        Wrapper::new(
+            "void",
+            "get_openings",
+            format!("{constants}const fmu_state *state, fmu_openings *openings"),
+            reading("openings", !of.openings.is_empty()),
+        ),
+        Wrapper::new(
+            "int",
+            "check_joints",
+            format!("{constants}const fmu_state *state"),
+            check,
         ),
         Wrapper::new(
             "int",

@@ -159,6 +159,30 @@ pub const fn inputs(report: &holonom::Report) -> usize {
     count
 }
 
+/// Whether a name is that of a joint which has one coordinate: no body, no joint that closes a
+/// loop.
+#[must_use]
+pub const fn is_coordinate(report: &JointReport, name: &str) -> bool {
+    let mut motions = report.motions;
+    let mut count = 0;
+    while let [first, rest @ ..] = motions {
+        count += is_same(first.joint.as_bytes(), name.as_bytes()) as usize;
+        motions = rest;
+    }
+    count == 1
+}
+
+/// Equality where no trait can be asked.
+const fn is_same(mut one: &[u8], mut other: &[u8]) -> bool {
+    while let ([a, one_rest @ ..], [b, other_rest @ ..]) = (one, other) {
+        if *a != *b {
+            return false;
+        }
+        (one, other) = (one_rest, other_rest);
+    }
+    one.is_empty() && other.is_empty()
+}
+
 /// Refuses at compile time what has no arrays of coordinates.
 pub const fn check_coordinates(report: &JointReport, degrees_of_freedom: isize, chosen: usize) {
     let mut motions = report.motions;

@@ -75,7 +75,7 @@ impl Trouble {
             if let Some(time) = self.time {
                 text.push_str(&format!("at {time} s: "));
             }
-            text.push_str(&self.fault.to_string());
+            text.push_str(&said(&self.fault));
             let exception = fault_class(py)?.call1((text,))?;
             exception.setattr("time", self.time)?;
             exception.setattr("joint", joint(&self.fault))?;
@@ -84,6 +84,17 @@ impl Trouble {
             Ok(exception)
         };
         made().map_or_else(|error| error, PyErr::from_value)
+    }
+}
+
+/// What a fault says, in the words of Python.
+fn said(fault: &Fault) -> String {
+    let text = fault.to_string();
+    match fault {
+        Fault::Start(StartFault::LimitsLeftOut { .. }) => {
+            text.replace(".without_limits()", "limits=False")
+        }
+        _ => text,
     }
 }
 

@@ -76,7 +76,7 @@ pub mod __private {
     pub use holonom;
     pub use pyo3;
 
-    pub use crate::described::{check_coordinates, inputs};
+    pub use crate::described::{check_coordinates, inputs, is_coordinate};
     pub use crate::exposed::Valued;
     pub use crate::exposed::{
         Analysed, Construct, Exposed, Fallback, Matrices, NotTypical, Numbers, Reading, Typical,

@@ -18,8 +18,9 @@
 /// - A mechanism needs `coordinates = "joints"` or `"both"`, and `kernels = [mass, inverse,
 ///   jacobian]`. It is named by one word: `use` it before.
 /// - In parentheses stand the joints that are the coordinates, as many as there are degrees of
-///   freedom. Left out, they are all joints of a tree in the order of the fields. Where a joint has
-///   several motions, all joints have to be left out.
+///   freedom: joints of the spanning tree, none that closes a loop. Left out, they are all joints
+///   of a tree in the order of the fields. Where a joint has several motions, all joints have to be
+///   left out.
 /// - In braces stand readings: a name, what it is with its unit in parentheses, and a function of
 ///   the state. A function is compiled for numbers that carry derivatives, too.
 /// - `runs` before a mechanism makes a class that has `simulate` alone, for any description:
@@ -177,8 +178,21 @@ macro_rules! __analysed {
             REPORT.degrees_of_freedom,
             CHOSEN,
         );
-        // They are joints.
-        $(let _ = <Of as $crate::__private::holonom::Mechanism>::HANDLES.$joint.index();)*
+        // They are fields, and joints with a coordinate.
+        $(
+            let _ = <Of as $crate::__private::holonom::Mechanism>::HANDLES.$joint.index();
+            const _: () = ::core::assert!(
+                $crate::__private::is_coordinate(
+                    &<Of as $crate::__private::holonom::JointCoordinates>::JOINT_REPORT,
+                    ::core::stringify!($joint),
+                ),
+                ::core::concat!(
+                    "`", ::core::stringify!($joint), "` in the parentheses behind `",
+                    ::core::stringify!($mechanism),
+                    "` is no coordinate: name joints of the spanning tree, no bodies and no joint that closes a loop"
+                ),
+            );
+        )*
 
         impl $crate::__private::Analysed<N> for Class {
             fn linearise(

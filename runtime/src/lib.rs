@@ -114,9 +114,10 @@ pub mod spline {
     pub use crate::math::spline::{Spline, SplineFault, uniform_knots};
 }
 
-/// Compliances, limits and a projection for programs in other languages.
+/// Compliances, limits, a projection and what a start may be, for programs in other languages.
 #[doc(hidden)]
 pub mod traced {
+    pub use crate::assembly::consistent_start::{StartRow, check_start, start_rows};
     pub use crate::constraints::compliance::{compliances, numbers_of_units};
     pub use crate::constraints::traced::{Projected, projected};
     pub use crate::mechanism::AtTime;

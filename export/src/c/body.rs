@@ -194,8 +194,12 @@ impl Body<'_> {
             );
         }
         // The difference of a number that is not finite is no number.
-        let differences = function.outputs.iter().map(|output| {
-            let name = self.operand(output.place);
+        let written = function.outputs.iter().map(|output| output.place);
+        let guard = function.guard.map(|(place, _)| place);
+        // What writes nothing is known by its guard.
+        let guard = guard.filter(|_| function.outputs.is_empty());
+        let differences = written.chain(guard).map(|place| {
+            let name = self.operand(place);
             format!("({name} - {name})")
         });
         let sum = balanced(&differences.collect::<Vec<_>>());

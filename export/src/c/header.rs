@@ -61,7 +61,9 @@ typedef enum {n}_status {{
     /* A step would pass a limit of a joint: take a shorter one up to it. */
     {u}_LIMIT = 4,
     /* A projection that has not converged. */
-    {u}_NOT_CONVERGED = 5
+    {u}_NOT_CONVERGED = 5,
+    /* A joint is open, or its bodies move against it. */
+    {u}_OPEN = 6
 }} {n}_status;
 
 ",

@@ -25,6 +25,9 @@
  * A world whose step fails stops. Its state, and what is left of its results, are its last good
  * state, with its time.
  *
+O|  * A world that begins with an open joint, as after a change of a length, takes no step. Its status
+O|  * is %_OPEN.
+O|  *
 I|  * A feedback is a macro that is there before this file is included. It is called before each
 I|  * step:
 I|  *
@@ -90,7 +93,9 @@ I|     } else {
 I|         @_default_inputs(&own_inputs);
 I|     }
 K|     @_prepare(PREPARED&constants);
-    for (step = 0; step < steps; step++) {
+O|     status = @_check_joints(STEPPED&state);
+O|     for (step = 0; status == %_OK && step < steps; step++) {
+o|     for (step = 0; step < steps; step++) {
 I|         if (inputs && hold > 0 && step == next_inputs) {
 I|             inputs += %_ROLLOUT_INPUTS * worlds;
 I|             next_inputs += hold;

@@ -73,19 +73,23 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
 }
 
 /// The file, with marks: `@` is the name of the program, `%` the same in upper case. A line with a
-/// letter and a bar in front is there only for mechanisms with parameters (`P`), inputs (`I`) or
-/// constants (`K`); with a small letter only for those without them.
+/// letter and a bar in front is there only for mechanisms with parameters (`P`), inputs (`I`),
+/// constants (`K`) or joints that may be open (`O`); with a small letter only for those without
+/// them.
 const TEMPLATE: &str = include_str!("rollout.cu");
 
 fn written(text: &Text, program: &Program) -> String {
     let has = |place: usize| !program.structs[place].members.is_empty();
     // What is given changes nothing where no constant follows from it.
     let [parameters, inputs] = [PARAMETERS, INPUTS].map(|place| has(place) && has(CONSTANTS));
+    let has_openings = program.function("check_joints").is_some();
     let is_kept = |mark: char| match mark {
         'P' => parameters,
         'p' => !parameters,
         'I' => inputs,
         'i' => !inputs,
+        'O' => has_openings,
+        'o' => !has_openings,
         _ => has(CONSTANTS),
     };
     let kept = |line: &'static str| match line.split_once("| ") {

@@ -110,10 +110,15 @@ fn same(found: &[f64], expected: &[f64], what: &str) {
 
 /// A state near one that satisfies the equations.
 fn near_by<X: Vector<f64> + Copy>(start: &X, random: &mut ChaCha8Rng) -> X {
+    moved(start, |_| random.random_range(-1e-4..1e-4))
+}
+
+/// A state whose angles and other numbers are moved by so much, each by its place.
+pub(crate) fn moved<X: Vector<f64> + Copy>(start: &X, mut by: impl FnMut(usize) -> f64) -> X {
     let mut state = *start;
     let is_turn = |place: usize| place + 1 < start.length() && !start.is_independent(place + 1);
     for place in (0..start.length()).filter(|&place| start.is_independent(place)) {
-        let by = random.random_range(-1e-4..1e-4);
+        let by = by(place);
         if is_turn(place) {
             let (c, s) = (start.element(place), start.element(place + 1));
             let (a, b) = (f64::cos(by), f64::sin(by));

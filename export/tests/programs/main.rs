@@ -5,5 +5,6 @@ mod compiled;
 mod functions;
 mod interface;
 mod limits;
+mod openings;
 mod refused;
 mod rollout;

@@ -36,6 +36,10 @@ fn refused() -> Vec<(ExportError, &'static str)> {
             -height
         }
     });
+    let mut bent = bars.described_state().expect("finite");
+    bars.set_angle(&mut bent, FourBar::HANDLES.left_foot, 0.5)
+        .expect("it turns");
+    let opened = joints().starting_from(&bars, &bent);
     let named = |name: &str| joints().reading(name, "", |view| view.time());
     let all = [
         (
@@ -67,6 +71,7 @@ fn refused() -> Vec<(ExportError, &'static str)> {
         ),
         (named("state").c().err(), "the name `state` is given twice"),
         (joints().cuda().err(), "say `.step(Rk4)` before `.cuda()`"),
+        (opened.c().err(), "joint `right_pin` is open by 0.6"),
         (
             spoiled.export(StandardLagrange).c().err(),
             "`stop` must be finite",

@@ -130,6 +130,10 @@ fn limits_and_switches_are_event_indicators() {
         format!("valueReference={:?}", reference.expect("a number"))
     });
     assert_eq!(references, expected);
+    // What is false unless it is said.
+    let exchange = elements(&document, "ModelExchange");
+    let completed = exchange[0].attribute("needsCompletedIntegratorStep");
+    assert_eq!(completed, Some("true"));
     let gap = attributes(variable(&document, "rail_upper_gap"));
     assert!(
         gap.contains(r#"description="how far the displacement of rail is below its upper limit (m)" causality="local" variability="continuous" initial="calculated" unit="m""#),

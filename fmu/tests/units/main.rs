@@ -2,6 +2,7 @@
 
 mod bounced;
 mod driven;
+mod opened;
 mod refused;
 mod unit;
 mod variables;

@@ -15,9 +15,70 @@ use crate::state::vector::{Array, StateParts};
 /// the mechanism, over a radian, and over the velocities of the mechanism: four digits.
 const INEXACT: f64 = 1e-4;
 
+/// What a row of `Phi` may be at a start.
+#[derive(Clone, Copy, Debug)]
+pub struct StartRow<S> {
+    /// By what a violation becomes metres or radians.
+    pub factor: S,
+    /// Whether it is metres.
+    pub is_length: bool,
+    /// The violation (m, rad) that is accepted.
+    pub accepted: S,
+    /// The violation (m/s, rad/s) of `Phi'` that is accepted, over a second and for velocities up
+    /// to one length of the mechanism in a second. For larger ones it grows with them.
+    pub accepted_rate: S,
+}
+
+/// What all rows may be.
+struct StartRows<S: Scalar, M: Mechanism> {
+    rows: RowUnits<S, M>,
+    /// The length of the mechanism (m).
+    length: S,
+    /// What the digits of positions resolve (m).
+    resolution: S,
+}
+
+impl<S: Real, M: Mechanism> StartRows<S, M> {
+    fn at(constants: &M::Constants<S>, time: S, state: &M::State<S>) -> Self {
+        Self {
+            rows: RowUnits::<S, M>::of(&Rows::at(constants, time, state)),
+            length: characteristic_length::<S, M>(constants, state),
+            resolution: S::constant(8.0) * resolution::<S, M>(state),
+        }
+    }
+
+    fn each(&self) -> impl Iterator<Item = StartRow<S>> + '_ {
+        let factors = self.rows.factors().iter().enumerate();
+        factors.map(|(row, &factor)| {
+            let is_length = self.rows.is_length(row);
+            let size = if is_length { self.length } else { S::one() };
+            let inexact = S::constant(INEXACT) * size;
+            StartRow {
+                factor,
+                is_length,
+                accepted: inexact + self.resolution,
+                accepted_rate: inexact,
+            }
+        })
+    }
+}
+
+/// What the rows of `Phi` may be at a start near a state, one after the other, and the length of
+/// the mechanism (m): for programs that check starts as [`check_start`] does.
+pub fn start_rows<S: Real, M: Mechanism>(
+    constants: &M::Constants<S>,
+    time: S,
+    state: &M::State<S>,
+    row: impl FnMut(StartRow<S>),
+) -> S {
+    let rows = StartRows::<S, M>::at(constants, time, state);
+    rows.each().for_each(row);
+    rows.length
+}
+
 /// Refuses a start at which a joint is open, or its bodies move against it so fast that it would
 /// open over the run; `is_final` says that no run could accept it.
-pub(crate) fn check_start<S: Real, M: Mechanism>(
+pub fn check_start<S: Real, M: Mechanism>(
     constants: &M::Constants<S>,
     (time, duration): (S, S),
     state: &M::State<S>,
@@ -32,17 +93,12 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
             is_final,
         })
     };
-    let rows = RowUnits::<S, M>::of(&Rows::at(constants, time, state));
-    let length = characteristic_length::<S, M>(constants, state);
-    let inexact = S::constant(INEXACT);
-    let size = |is_length: bool| if is_length { length } else { S::one() };
+    let rows = StartRows::<S, M>::at(constants, time, state);
     let phi = M::constraints(constants, time, state);
-    let resolution = S::constant(8.0) * resolution::<S, M>(state);
-    for (row, (&phi, &factor)) in phi.as_slice().iter().zip(rows.factors()).enumerate() {
-        let is_length = rows.is_length(row);
-        let violation = phi.abs() * factor;
-        if violation > inexact * size(is_length) + resolution {
-            let quantity = if is_length {
+    for (row, (&phi, of)) in phi.as_slice().iter().zip(rows.each()).enumerate() {
+        let violation = phi.abs() * of.factor;
+        if violation > of.accepted {
+            let quantity = if of.is_length {
                 Quantity::Length
             } else {
                 Quantity::Angle
@@ -51,14 +107,13 @@ pub(crate) fn check_start<S: Real, M: Mechanism>(
         }
     }
     let phi_rate = constraint_rates::<S, M>(constants, time, state);
-    let fastest = reach::<S, M>(state.velocities(), length).size;
-    for (row, (&rate, &factor)) in phi_rate.as_slice().iter().zip(rows.factors()).enumerate() {
-        let is_length = rows.is_length(row);
-        let violation = rate.abs() * factor;
-        let opens = violation * duration > inexact * size(is_length);
+    let fastest = reach::<S, M>(state.velocities(), rows.length).size;
+    for (row, (&rate, of)) in phi_rate.as_slice().iter().zip(rows.each()).enumerate() {
+        let violation = rate.abs() * of.factor;
+        let opens = violation * duration > of.accepted_rate;
         // Small beside the velocities in lengths of the mechanism, it is a number of few digits.
-        if opens && violation > inexact * fastest * size(is_length) {
-            let quantity = if is_length {
+        if opens && violation > fastest * of.accepted_rate {
+            let quantity = if of.is_length {
                 Quantity::Speed
             } else {
                 Quantity::AngularVelocity
