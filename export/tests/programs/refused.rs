@@ -67,10 +67,7 @@ fn refused() -> Vec<(ExportError, &'static str)> {
         ),
         (named("state").c().err(), "the name `state` is given twice"),
         (joints().cuda().err(), "say `.step(Rk4)` before `.cuda()`"),
-        (
-            opened.c().err(),
-            "joint `right_pin` is open by 0.6",
-        ),
+        (opened.c().err(), "joint `right_pin` is open by 0.6"),
         (
             spoiled.export(StandardLagrange).c().err(),
             "`stop` must be finite",
