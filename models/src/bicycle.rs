@@ -14,9 +14,9 @@ use holonom::prelude::*;
 ///                                 ahead of the point of contact
 /// ```
 ///
-/// Shapes are drawn alone. Wheels are thin discs that roll without slip on the ground. Meijaard, Papadopoulos, Ruina and
-/// Schwab, *Linearized dynamics equations for the balance and steer of a bicycle: a benchmark and
-/// review*, Proceedings of the Royal Society A 463 (2007), table 1.
+/// Shapes are drawn alone. Wheels are thin discs that roll without slip on the ground. Meijaard,
+/// Papadopoulos, Ruina and Schwab, *Linearized dynamics equations for the balance and steer of a
+/// bicycle: a benchmark and review*, Proceedings of the Royal Society A 463 (2007), table 1.
 ///
 /// Good for: rolling; eigenvalues over the speed, which are stable between 4.292382536341106 and
 /// 6.024262015388376 m/s.

@@ -93,9 +93,7 @@ I|     } else {
 I|         @_default_inputs(&own_inputs);
 I|     }
 K|     @_prepare(PREPARED&constants);
-O|     status = @_check_joints(STEPPED&state);
-O|     for (step = 0; status == %_OK && step < steps; step++) {
-o|     for (step = 0; step < steps; step++) {
+    for (step = 0; step < steps; step++) {
 I|         if (inputs && hold > 0 && step == next_inputs) {
 I|             inputs += %_ROLLOUT_INPUTS * worlds;
 I|             next_inputs += hold;
@@ -108,6 +106,13 @@ I| #ifdef %_FEEDBACK
 I|         %_FEEDBACK(&constants, &state, &own_inputs, world, step);
 I|         @_set_inputs(PREPARED&constants);
 I| #endif
+O|         /* Within the loop it takes no registers beside those of a step. */
+O|         if (step == 0) {
+O|             status = @_check_joints(STEPPED&state);
+O|             if (status != %_OK) {
+O|                 break;
+O|             }
+O|         }
         status = @_step(STEPPED&state, dt);
         if (status != %_OK) {
             break;

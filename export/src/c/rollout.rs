@@ -75,7 +75,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
 /// The file, with marks: `@` is the name of the program, `%` the same in upper case. A line with a
 /// letter and a bar in front is there only for mechanisms with parameters (`P`), inputs (`I`),
 /// constants (`K`) or joints that may be open (`O`); with a small letter only for those without
-/// them.
+/// parameters or inputs.
 const TEMPLATE: &str = include_str!("rollout.cu");
 
 fn written(text: &Text, program: &Program) -> String {
@@ -89,7 +89,6 @@ fn written(text: &Text, program: &Program) -> String {
         'I' => inputs,
         'i' => !inputs,
         'O' => has_openings,
-        'o' => !has_openings,
         _ => has(CONSTANTS),
     };
     let kept = |line: &'static str| match line.split_once("| ") {

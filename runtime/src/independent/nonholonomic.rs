@@ -86,7 +86,8 @@ pub trait NonholonomicExt: JointRates {
     ///     #[body(mass = 2.0, inertia = [1.0, 1.0, 0.3], velocity = [0.7, 0.0, 0.0])]
     ///     sleigh: Body,
     ///     #[joint(
-    ///         between = [ground, sleigh], point = [-0.3, 0.0, 0.0], normal = [0.0, 0.0, 1.0], side = [0.0, 1.0, 0.0]
+    ///         between = [ground, sleigh], point = [-0.3, 0.0, 0.0],
+    ///         normal = [0.0, 0.0, 1.0], side = [0.0, 1.0, 0.0]
     ///     )]
     ///     runner: Runner,
     /// }

@@ -4,7 +4,7 @@ use super::Equations;
 use super::elimination::{Elimination, Pivot, at, set};
 use crate::error::{AnalysisFault, Fault};
 use crate::math::scalar::{Real, Scalar};
-use crate::mechanism::joint_kernels::Freedom;
+use crate::mechanism::joint_kernels::{Freedom, JointCoordinates};
 use crate::mechanism::joint_rates::JointRates;
 use crate::state::vector::{Array, MovingState as _};
 
@@ -40,6 +40,12 @@ impl Standing {
     };
 }
 
+/// `D` of the joints, `gamma`, `Phi'` and `Phi`.
+type ClosingRows<M, S> = (
+    <M as JointRates>::ClosingJacobian<S>,
+    [<M as JointCoordinates>::ClosingMultipliers<S>; 3],
+);
+
 impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
     /// What a rate compares by with others: one, or a length of the mechanism.
     pub(super) fn scale(&self, rate: usize) -> S {
@@ -47,6 +53,21 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
             Some((_, motion)) if motion.freedom == Freedom::Slide => self.length,
             _ => S::one(),
         }
+    }
+
+    /// The rows that close loops; of coordinates those of positions alone.
+    fn closing_rows(&self, state: &M::JointState<S>) -> ClosingRows<M, S> {
+        let (mut jacobian, values) = M::closing_rows(&self.constants, self.time, state);
+        if self.leaves_velocities {
+            let width = M::JointVelocities::<S>::zeros().as_slice().len().max(1);
+            for (row, entries) in jacobian.as_mut_slice().chunks_mut(width).enumerate() {
+                let known = M::JOINT_REPORT.rows.get(row).copied().flatten();
+                if known.is_some_and(|row| M::REPORT.velocity_rows.contains(&row)) {
+                    entries.fill(S::zero());
+                }
+            }
+        }
+        (jacobian, values)
     }
 
     /// Eliminates the dependent rates from the equations that close loops (Gauss and Jordan, with
@@ -75,19 +96,9 @@ impl<M: JointRates, const N: usize, S: Real> Equations<M, N, S> {
         if M::JOINT_REPORT.closing.is_empty() {
             return Ok(partition);
         }
-        let (mut jacobian, [mut gamma, rates, mut values]) =
-            M::closing_rows(&self.constants, self.time, state);
+        let (mut jacobian, [mut gamma, rates, mut values]) = self.closing_rows(state);
         let width = partition.bias.as_slice().len();
         let height = gamma.as_slice().len();
-        if self.leaves_velocities {
-            let rows = jacobian.as_mut_slice().chunks_mut(width.max(1));
-            for (row, entries) in rows.enumerate() {
-                let known = M::JOINT_REPORT.rows.get(row).copied().flatten();
-                if known.is_some_and(|row| M::REPORT.velocity_rows.contains(&row)) {
-                    entries.fill(S::zero());
-                }
-            }
-        }
         if let Some((row, by)) = opened {
             values = M::ClosingMultipliers::zeros();
             set(&mut values, row, -by);

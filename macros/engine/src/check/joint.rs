@@ -9,6 +9,7 @@ use syn::spanned::Spanned;
 use super::expression::{Context, Shaped, extent, too_large};
 use super::motion::{must_count, must_turn};
 use super::moves;
+use super::rates::{has_rate, is_constant, is_linear};
 use crate::diag::{Faults, did_you_mean, list};
 use crate::model::{
     Action, Comparison, ElementDef, ElementKind, Extent, Motion, Parameter, ParameterKind, Row,
@@ -269,22 +270,7 @@ impl Reader<'_> {
                 }
             }
             Statement::Angle { keyword, axes } => self.read_angle(keyword, axes, faults),
-            Statement::Displacement(keyword, expr) => {
-                let term = self.context.scalar(expr, faults);
-                if self.displacement.is_some() {
-                    faults.at(keyword, "a joint has one displacement; this is the second");
-                } else if self.joint_only(keyword, "a displacement", faults)
-                    && let Some(term) = term
-                    && !has_rate(
-                        &term,
-                        expr,
-                        "a displacement depends on positions alone; its rate is read by `displacement_rate`",
-                        faults,
-                    )
-                {
-                    self.displacement = Some(term);
-                }
-            }
+            Statement::Displacement(keyword, expr) => self.read_displacement(keyword, expr, faults),
             Statement::Require(keyword, written) => self.require(keyword, written, faults),
             Statement::Motion {
                 keyword, motions, ..
@@ -364,6 +350,23 @@ impl Reader<'_> {
                     self.actions.push(Action::Moment { vector, body });
                 }
             }
+        }
+    }
+
+    fn read_displacement(&mut self, keyword: &Ident, expr: &syn::Expr, faults: &mut Faults) {
+        let term = self.context.scalar(expr, faults);
+        if self.displacement.is_some() {
+            faults.at(keyword, "a joint has one displacement; this is the second");
+        } else if self.joint_only(keyword, "a displacement", faults)
+            && let Some(term) = term
+            && !has_rate(
+                &term,
+                expr,
+                "a displacement depends on positions alone; its rate is read by `displacement_rate`",
+                faults,
+            )
+        {
+            self.displacement = Some(term);
         }
     }
 
@@ -507,39 +510,6 @@ impl Reader<'_> {
                 _ => {}
             }
         }
-    }
-}
-
-/// Refuses an equation of velocities that is not linear in them.
-fn is_linear(term: &Term, at: impl ToTokens, faults: &mut Faults) -> bool {
-    let is_linear = term.degree().is_some();
-    if !is_linear {
-        faults.at(
-            at,
-            "an equation of velocities is linear in them: a sum of terms with one `rate(..)` or `angular_velocity(..)` each, \
-             times what depends on positions and the time",
-        );
-    }
-    is_linear
-}
-
-/// Refuses a rate where it has no place.
-fn has_rate(term: &Term, at: impl ToTokens, message: &str, faults: &mut Faults) -> bool {
-    let has = term.has(Term::is_rate);
-    if has {
-        faults.at(at, message);
-    }
-    has
-}
-
-/// Whether a scalar has one value for all states.
-fn is_constant(term: &Term) -> bool {
-    match term {
-        Term::Number(_) | Term::Scalar(_) | Term::Initial(_) => true,
-        Term::Sum(terms) => terms.iter().all(|(_, term)| is_constant(term)),
-        Term::Product(a, b) | Term::Direction(a, b) => is_constant(a) && is_constant(b),
-        Term::Function(_, term) => is_constant(term),
-        _ => false,
     }
 }
 

@@ -60,6 +60,7 @@ pub mod pairs;
 mod parts;
 mod placement;
 mod points;
+mod rates;
 mod readings;
 mod redundant;
 pub mod slopes;

@@ -273,10 +273,7 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
     let time = explicit_time(&ExplicitTime::of(kernels, model), facade);
     let velocity_rows = model.velocity_rows();
     let curved = is_curved(model, &kernels.gamma);
-    let plan = kernels.plans.as_ref();
-    let plan = plan.map_or("rows in turn".into(), |plans| {
-        describe(model, &plans.rigid, &layout)
-    });
+    let plan = described_plan(model, kernels, &layout);
     quote! {
         #facade::Report {
             name: #name,
@@ -304,6 +301,14 @@ pub fn report(model: &Model, kernels: &Kernels, facade: &TokenStream) -> TokenSt
             plan: #plan,
         }
     }
+}
+
+/// The plan in words.
+fn described_plan(model: &Model, kernels: &Kernels, layout: &Layout) -> String {
+    let plan = kernels.plans.as_ref();
+    plan.map_or("rows in turn".into(), |plans| {
+        describe(model, &plans.rigid, layout)
+    })
 }
 
 fn rank(rank: &Rank, facade: &TokenStream) -> TokenStream {

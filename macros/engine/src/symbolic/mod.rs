@@ -10,8 +10,10 @@
 //! a moment on every body (reverse mode). The `bias` is the second derivative without
 //! accelerations, so `gamma = -bias`. Equations of velocities (`velocities.rs`) are rates
 //! themselves: they have no `Phi`, their rows of `D` are gradients by velocities, and `-gamma` is
-//! their derivative without accelerations. The term `w x (w x s)` is made of the products `w_k w_l`,
-//! which all vectors of a body share. Vectors of a body along one line have one `w x (w x e)`.
+//! their derivative without accelerations. Module `rows` has both for all constraints.
+//!
+//! The term `w x (w x s)` is made of the products `w_k w_l`, which all vectors of a body share.
+//! Vectors of a body along one line have one `w x (w x e)`.
 //!
 //! Binding. `expression.rs` has the expressions that are bound to bodies. `bind.rs` replaces formal
 //! bodies and numbers by those of a mechanism and expands laws. Later stages see expressions only.
@@ -62,6 +64,7 @@ mod node;
 pub mod processor;
 pub mod repeated;
 pub mod rotation;
+mod rows;
 pub mod scene;
 pub mod separation;
 pub(crate) mod start;
