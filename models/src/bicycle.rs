@@ -53,13 +53,16 @@ pub struct Bicycle {
     fork: Body,
     #[body(
         mass = 3.0, inertia = [0.1405, 0.28, 0.1405], position = [1.02, 0.0, -0.35],
-        shape = disc(radius = 0.35, thickness = 0.02, at = [1.02, 0.0, -0.35], axis = [0.0, 1.0, 0.0])
+        shape = disc(
+            radius = 0.35, thickness = 0.02, at = [1.02, 0.0, -0.35], axis = [0.0, 1.0, 0.0]
+        )
     )]
     front_wheel: Body,
     #[joint(between = [frame, rear_wheel], point = [0.0, 0.0, -0.3], axis = [0.0, 1.0, 0.0])]
     rear_hub: Revolute,
     #[joint(
-        between = [frame, fork], point = [1.02 + 0.08, 0.0, 0.0], axis = [sin(PI / 10.0), 0.0, cos(PI / 10.0)]
+        between = [frame, fork], point = [1.02 + 0.08, 0.0, 0.0],
+        axis = [sin(PI / 10.0), 0.0, cos(PI / 10.0)]
     )]
     steering: Revolute,
     #[joint(between = [fork, front_wheel], point = [1.02, 0.0, -0.35], axis = [0.0, 1.0, 0.0])]

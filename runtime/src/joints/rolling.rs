@@ -14,14 +14,14 @@ crate::joint! {
 }
 
 crate::joint! {
-    /// A wheel `j` rolls on a plane of `i` without slip, upright or leaning. `center` is that of
-    /// the wheel and `axle` its axis; the plane goes through `point`, with the `normal` on the side
-    /// of the wheel. `radius` (m) is that to the outermost circle, `crown` (m) the radius of the
-    /// section of the tyre: zero for a thin disc, else the wheel is a torus.
+    /// A wheel `j` rolls on a plane of `i` without slip, upright or leaning. The wheel has its
+    /// `center` and its `axle`. The plane goes through `point`; its `normal` points to the wheel.
+    /// `radius` (m) is that of the outermost circle. `crown` (m) is the radius of the section of
+    /// the tyre: zero for a thin disc, else the wheel is a torus.
     ///
-    /// One equation of positions, that the wheel touches the plane, and two of velocities, that the
-    /// point of contact does not slip along the plane. Reactions are reduced to the centre. A wheel
-    /// that lies flat has no lowest point: a run that comes there ends with a fault (Meijaard,
+    /// One equation of positions: the wheel touches the plane. Two of velocities: the point of
+    /// contact does not slip along the plane. Reactions are reduced to the centre. A wheel that
+    /// lies flat has no lowest point. A run that comes there ends with a fault (Meijaard,
     /// Papadopoulos, Ruina and Schwab 2007).
     #[doc(alias("disc", "disk", "tyre", "tire"))]
     pub joint RollingWheel(
@@ -45,9 +45,9 @@ crate::joint! {
 }
 
 crate::joint! {
-    /// A ball `j` rolls on a plane of `i` without slip. `center` is that of the ball, which may
-    /// have its mass elsewhere; the plane goes through `point`, with the `normal` on the side of
-    /// the ball. `radius` is that of the ball (m).
+    /// A ball `j` rolls on a plane of `i` without slip. The ball has its `center`, which need not
+    /// be that of its mass, and its `radius` (m). The plane goes through `point`; its `normal`
+    /// points to the ball.
     ///
     /// One equation of positions and two of velocities, as of [`RollingWheel`]. The ball may spin
     /// about the normal. Reactions are reduced to the centre (Neimark and Fufaev 1972).

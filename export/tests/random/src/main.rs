@@ -1,6 +1,8 @@
 //! Random mechanisms in C against the same in Rust, to the last bit: rates, steps, projections and
 //! a reading, from random states, in both coordinates. Prints what differs and what is refused.
 
+#![forbid(unsafe_code)]
+
 #[path = "../../programs/compiled.rs"]
 #[allow(dead_code, reason = "the tests use more of it")]
 mod compiled;

@@ -251,8 +251,8 @@ impl Term {
         matches!(self, Self::Rate(_) | Self::Spin { .. })
     }
 
-    /// Its degree in rates, where every term has one: 0 for a number of positions, 1 for what is
-    /// linear in rates or has a part without; `None` where it is no polynomial of them of degree 1.
+    /// Its degree in rates: 0 without any, 1 for what is linear in them, beside a part without.
+    /// `None` for everything else.
     #[must_use]
     pub fn degree(&self) -> Option<usize> {
         let degree = match self {

@@ -1,10 +1,10 @@
 //! The rows of constraints: gradients, and combinations of `Phi`, its rate and its bias.
 
 use super::arena::{Arena, Expr};
-use super::expression::{Constraint, ScalarExpr, VectorExpr};
+use super::expression::{Constraint, VectorExpr};
 use super::motion::{Gradient, Motion};
 use super::scene::{Constrained, Scene};
-use super::vector::{Frame, Space, Triple, VectorId, ZERO};
+use super::vector::{Frame, Space, Triple, ZERO};
 
 impl Scene {
     /// The gradients of a constraint's rows, in the given axes.
@@ -23,21 +23,12 @@ impl Scene {
         frame: Frame,
         empty: fn() -> Gradient,
     ) -> Vec<Gradient> {
-        let Self {
-            space,
-            motion,
-            constraints,
-            ..
-        } = self;
-        let Constrained {
-            constraint,
-            of_velocities,
-            ..
-        } = &constraints[constraint];
-        match constraint {
+        let (space, motion, constrained) = self.constrained(constraint);
+        let of_velocities = constrained.of_velocities;
+        match &constrained.constraint {
             Constraint::Scalar(scalar) => {
                 let mut gradient = empty();
-                if *of_velocities {
+                if of_velocities {
                     scalar.pull_back_rates(space, motion, Arena::ONE, &mut gradient);
                 } else {
                     scalar.pull_back(space, motion, Arena::ONE, &mut gradient);
@@ -50,7 +41,7 @@ impl Scene {
                     unit[k] = Arena::ONE;
                     let covector = space.native(frame, unit);
                     let mut gradient = empty();
-                    if *of_velocities {
+                    if of_velocities {
                         let factor = Arena::ONE;
                         vector.pull_back_rates(space, motion, factor, covector, &mut gradient);
                     } else {
@@ -70,59 +61,55 @@ impl Scene {
         frame: Frame,
         [value, rate, bias]: [Expr; 3],
     ) -> Vec<Expr> {
-        let Self {
-            space,
-            motion,
-            constraints,
-            ..
-        } = self;
-        let Constrained {
-            constraint,
-            of_velocities,
-            ..
-        } = &constraints[constraint];
+        let (space, motion, constrained) = self.constrained(constraint);
+        // Of an equation of velocities, the expression is the rate.
+        let [value, rate, bias] = if constrained.of_velocities {
+            [rate, bias, Arena::ZERO]
+        } else {
+            [value, rate, bias]
+        };
         let wanted = |factor: Expr| factor != Arena::ZERO;
-        match constraint {
+        match &constrained.constraint {
             Constraint::Scalar(scalar) => {
-                type Of = fn(&ScalarExpr, &mut Space, &Motion) -> Expr;
-                let terms: [(Expr, Of); 3] = if *of_velocities {
-                    let (of_rate, of_value): (Of, Of) = (ScalarExpr::rate, ScalarExpr::value);
-                    [(bias, of_rate), (rate, of_value), (Arena::ZERO, of_value)]
-                } else {
-                    [
-                        (bias, ScalarExpr::bias),
-                        (rate, ScalarExpr::rate),
-                        (value, ScalarExpr::value),
-                    ]
-                };
                 let mut sum = Arena::ZERO;
-                for (factor, of) in terms.into_iter().filter(|(factor, _)| wanted(*factor)) {
-                    let term = of(scalar, space, motion);
+                let mut add = |space: &mut Space, factor: Expr, term: Expr| {
                     let product = space.arena.mul(factor, term);
                     sum = space.arena.add(sum, product);
+                };
+                if wanted(bias) {
+                    let term = scalar.bias(space, motion);
+                    add(space, bias, term);
+                }
+                if wanted(rate) {
+                    let term = scalar.rate(space, motion);
+                    add(space, rate, term);
+                }
+                if wanted(value) {
+                    let term = scalar.value(space, motion);
+                    add(space, value, term);
                 }
                 vec![sum]
             }
             Constraint::Vector(vector) => {
-                type Of = fn(&VectorExpr, &mut Space, &Motion) -> VectorId;
-                let terms: [(Expr, Of); 3] = if *of_velocities {
-                    let (of_rate, of_value): (Of, Of) = (VectorExpr::rate, VectorExpr::value);
-                    [(bias, of_rate), (rate, of_value), (Arena::ZERO, of_value)]
-                } else {
-                    [
-                        (bias, VectorExpr::bias),
-                        (rate, VectorExpr::rate),
-                        (value, VectorExpr::value),
-                    ]
-                };
-                let terms = terms.into_iter().filter(|(factor, _)| wanted(*factor));
-                let terms: Vec<_> = terms
-                    .map(|(factor, of)| (factor, of(vector, space, motion)))
-                    .collect();
+                let mut terms = Vec::new();
+                if wanted(bias) {
+                    terms.push((bias, vector.bias(space, motion)));
+                }
+                if wanted(rate) {
+                    terms.push((rate, vector.rate(space, motion)));
+                }
+                if wanted(value) {
+                    terms.push((value, vector.value(space, motion)));
+                }
                 let sum = space.sum(terms);
                 space.components(sum, frame).into()
             }
         }
+    }
+
+    /// A constraint, and what its rows are computed in.
+    fn constrained(&mut self, constraint: usize) -> (&mut Space, &Motion, &Constrained) {
+        (&mut self.space, &self.motion, &self.constraints[constraint])
     }
 
     /// The vector that a constraint between positions holds at zero.

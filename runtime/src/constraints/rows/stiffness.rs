@@ -22,7 +22,7 @@ pub(crate) fn compliances_at<S: Real, M: Mechanism>(
 pub(crate) fn yield_velocities<S: Real, M: Mechanism>(compliances: &mut M::Multipliers<S>) {
     for &row in M::REPORT.velocity_rows {
         if let Some(compliance) = compliances.as_mut_slice().get_mut(row) {
-            // Those of the other rows are parts of what the rows yield; at the least 64 EPSILON.
+            // A part of what the row yields by itself, at the least 64 EPSILON, as of all rows.
             *compliance = compliance.quotient(S::EPSILON * S::EPSILON);
         }
     }
