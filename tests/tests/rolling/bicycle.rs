@@ -98,7 +98,7 @@ fn eigenvalues_are_those_of_the_benchmark() {
         (
             3.0,
             [
-                one(-10.351_014_672_459_20),
+                one(-10.351_014_672_459_2),
                 one(-2.633_661_372_536_67),
                 weave,
                 other,
