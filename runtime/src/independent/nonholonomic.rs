@@ -11,16 +11,17 @@ use nalgebra::{SMatrix, SVector};
 
 use super::choice::{Chosen, distinct};
 use super::determined::Needs;
-use super::directions::{Along, add, displaced, vary};
+use super::directions::{Along, StateAlong, add, displaced, vary};
 use super::equations::finite_matrix;
 use super::linear::{put, turned};
 use super::partition::{Partition, joint_rates, write_rates};
 use super::places::Places;
 use super::{Equations, IndependentCoordinates, degrees_of_freedom};
-use crate::error::{Fault, LeavesOut};
+use crate::error::{Fault, LeavesOut, ParameterError};
 use crate::forward::{Forward, Lifted, lifted};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::without_bounds::copied;
+use crate::measure::view::View;
 use crate::mechanism::handle::ValueHandle;
 use crate::mechanism::joint_rates::{HasInverse, HasMassMatrix, JointRates};
 use crate::mechanism::kernels::bodies_alone;
@@ -29,8 +30,12 @@ use crate::state::vector::Array;
 /// The directions that one evaluation takes.
 const LANES: usize = 4;
 
-/// Rates of coordinates and of speeds along directions.
-type Rates<S, const Q: usize, const N: usize> = ([Lifted<S>; Q], [Lifted<S>; N]);
+/// Rates of coordinates, those of speeds, and readings along directions.
+struct Outcome<N, const Q: usize, const R: usize, const P: usize> {
+    moving: [N; Q],
+    accelerated: [N; R],
+    readings: [N; P],
+}
 
 /// The equations of motion of a mechanism with equations of velocities, in `Q` chosen coordinates
 /// and `N` chosen speeds, by [`NonholonomicExt::nonholonomic`].
@@ -97,12 +102,15 @@ pub trait NonholonomicExt: JointRates {
     /// let free = |number| Motion::free(h.sleigh, number);
     /// let space = sleigh.nonholonomic([free(0), free(1), free(5)], [free(0), free(5)])?;
     /// let state = space.of_bodies(&sleigh.described_state()?);
-    /// let linear = space.linearise(&state, [])?;
+    /// let linear = space.linearise(&state, [], |view| [view.velocity(h.sleigh).y])?;
     /// // Its edge behind, it goes straight on: `w' = -m a u w / (J + m a^2)`.
     /// let damping = 2.0 * 0.3 * 0.7 / (0.3 + 2.0 * 0.3 * 0.3);
     /// assert!((linear.by_speeds[(1, 1)] + damping).abs() < 1e-12);
     /// // The centre of mass goes aside as the sleigh is turned.
     /// assert!((linear.rates_by_coordinates[(1, 2)] - 0.7).abs() < 1e-12);
+    /// // Its velocity aside by the three coordinates and the two speeds.
+    /// let c = linear.c::<5>();
+    /// assert!((c[(0, 2)] - 0.7).abs() < 1e-12 && (c[(0, 4)] - 0.3).abs() < 1e-12);
     /// # Ok::<(), Fault>(())
     /// ```
     ///
@@ -143,6 +151,16 @@ impl<M: JointRates, const Q: usize, const N: usize, S: Real> NonholonomicCoordin
     pub const fn set_time(&mut self, time: S) {
         self.speeds.set_time(time);
         self.coordinates.time = time;
+    }
+
+    /// Sets the inputs of the mechanism, with which its described forces act.
+    ///
+    /// # Errors
+    /// As [`IndependentCoordinates::set_inputs`].
+    pub fn set_inputs(&mut self, inputs: &M::Inputs<S>) -> Result<(), ParameterError> {
+        self.speeds.set_inputs(inputs)?;
+        self.coordinates.constants = self.speeds.equations.constants;
+        Ok(())
     }
 
     /// The state in which bodies stand and move so.
@@ -216,17 +234,21 @@ where
         self.speeds.forward(state, efforts)
     }
 
-    /// The equations of motion, linear about a state that moves: how rates of coordinates and of
-    /// speeds change with coordinates, speeds and the `values`, parameters or inputs by handle.
-    /// What is not chosen follows.
+    /// The equations of motion and some readings, linear about a state that moves: how rates of
+    /// coordinates, those of speeds, and readings change with coordinates, speeds and the `values`,
+    /// parameters or inputs by handle. What is not chosen follows.
+    ///
+    /// `read` takes what is wanted from a view, over numbers that carry derivatives; `|_| []` where
+    /// nothing is.
     ///
     /// # Errors
     /// As [`IndependentCoordinates::linearise`].
-    pub fn linearise<const K: usize>(
+    pub fn linearise<const K: usize, const P: usize>(
         &self,
         state: &M::JointState<S>,
         values: [ValueHandle<M>; K],
-    ) -> Result<LinearMotion<Q, N, K, S>, Fault> {
+        read: impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
+    ) -> Result<LinearMotion<Q, N, K, P, S>, Fault> {
         bodies_alone::<M>(LeavesOut::Linearisation)?;
         self.speeds.known(state, Needs::Derivatives)?;
         let ways = self.coordinates.partition(state)?;
@@ -242,10 +264,14 @@ where
             let columns: [_; LANES] = from_fn(|_| columns.next());
             let [Some(_), ..] = columns else { break };
             let directions = columns.map(|column| column.map(|(.., along)| along));
-            let (moving, accelerated) = self.along(state, &ways, &directions)?;
-            let (moving, accelerated) = (slopes(&moving), slopes(&accelerated));
+            let outcome = self.along(state, &ways, &directions, &read)?;
+            let slopes = Outcome {
+                moving: slopes(&outcome.moving),
+                accelerated: slopes(&outcome.accelerated),
+                readings: slopes(&outcome.readings),
+            };
             for (lane, (part, column, _)) in columns.into_iter().flatten().enumerate() {
-                linear.put(part, column, (&moving, &accelerated), lane);
+                linear.put(part, column, &slopes, lane);
             }
         }
         for (column, way) in ways.columns.iter().enumerate() {
@@ -258,13 +284,14 @@ where
         linear.finite()
     }
 
-    /// Rates of the coordinates and of the speeds along some directions.
-    fn along(
+    /// Rates of the coordinates and of the speeds, and readings, along some directions.
+    fn along<const P: usize>(
         &self,
         state: &M::JointState<S>,
         ways_of: &Partition<M, Q, S>,
         directions: &[Option<Along>; LANES],
-    ) -> Result<Rates<S, Q, N>, Fault> {
+        read: &impl Fn(&View<'_, Lifted<S>, M>) -> [Lifted<S>; P],
+    ) -> Result<Outcome<Lifted<S>, Q, N, P>, Fault> {
         let mut equations = self.speeds.equations.lifted::<LANES>();
         let mut parameters: M::Parameters<Lifted<S>> = lifted(&self.speeds.parameters);
         let mut ways = M::JointVelocities::<Lifted<S>>::zeros();
@@ -308,10 +335,27 @@ where
         let following = equations.partition(&there)?;
         let rates = joint_rates::<M, Lifted<S>>(&there);
         let none = [Forward::zero(); N];
-        Ok((
-            self.coordinates.places.take(rates.as_slice()),
-            equations.forward_with(Some(&following), &there, &none),
-        ))
+        let mut outcome = Outcome {
+            moving: self.coordinates.places.take(rates.as_slice()),
+            accelerated: equations.forward_with(Some(&following), &there, &none),
+            readings: [Forward::zero(); P],
+        };
+        if P > 0 {
+            let constants = if is_varied {
+                M::prepare(&parameters)
+            } else {
+                lifted(&self.speeds.constants)
+            };
+            let there = StateAlong {
+                parameters,
+                is_varied,
+                equations,
+                state: there,
+            };
+            let bodies = self.speeds.bodies_along(state, &there);
+            outcome.readings = read(&View::new(&constants, time, &bodies));
+        }
+        Ok(outcome)
     }
 }
 
@@ -328,15 +372,21 @@ fn slopes<S: Scalar, const R: usize>(numbers: &[Lifted<S>; R]) -> [[S; LANES]; R
     numbers.each_ref().map(|number| number.derivatives())
 }
 
-/// The equations of motion, linear about a motion, in `Q` coordinates, `N` speeds and `K` values:
-/// by [`NonholonomicCoordinates::linearise`].
+/// The equations of motion and `P` readings, linear about a motion, in `Q` coordinates, `N` speeds
+/// and `K` values: by [`NonholonomicCoordinates::linearise`].
 ///
 /// In first order, with `x = (coordinates, speeds)`, all deviations from the state that it was
-/// linearised about, `x' = A x + B u`. Of a ball and of a free body the coordinates are a small
-/// turn (rad) along the axes of its rates.
+/// linearised about:
+///
+/// ```text
+/// x' = A x + B u
+/// y  = C x + D u
+/// ```
+///
+/// Of a ball and of a free body the coordinates are a small turn (rad) along the axes of its rates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct LinearMotion<const Q: usize, const N: usize, const K: usize, S = f64> {
+pub struct LinearMotion<const Q: usize, const N: usize, const K: usize, const P: usize, S = f64> {
     /// Rates of coordinates by coordinates.
     pub rates_by_coordinates: SMatrix<S, Q, Q>,
     /// Rates of coordinates by speeds.
@@ -349,9 +399,17 @@ pub struct LinearMotion<const Q: usize, const N: usize, const K: usize, S = f64>
     pub by_speeds: SMatrix<S, N, N>,
     /// Rates of speeds by values.
     pub by_values: SMatrix<S, N, K>,
+    /// Readings by coordinates.
+    pub readings_by_coordinates: SMatrix<S, P, Q>,
+    /// Readings by speeds.
+    pub readings_by_speeds: SMatrix<S, P, N>,
+    /// Readings by values: `D`.
+    pub readings_by_values: SMatrix<S, P, K>,
 }
 
-impl<const Q: usize, const N: usize, const K: usize, S: Real> LinearMotion<Q, N, K, S> {
+impl<const Q: usize, const N: usize, const K: usize, const P: usize, S: Real>
+    LinearMotion<Q, N, K, P, S>
+{
     fn zeros() -> Self {
         Self {
             rates_by_coordinates: SMatrix::from_element(S::zero()),
@@ -360,6 +418,9 @@ impl<const Q: usize, const N: usize, const K: usize, S: Real> LinearMotion<Q, N,
             by_coordinates: SMatrix::from_element(S::zero()),
             by_speeds: SMatrix::from_element(S::zero()),
             by_values: SMatrix::from_element(S::zero()),
+            readings_by_coordinates: SMatrix::from_element(S::zero()),
+            readings_by_speeds: SMatrix::from_element(S::zero()),
+            readings_by_values: SMatrix::from_element(S::zero()),
         }
     }
 
@@ -367,21 +428,26 @@ impl<const Q: usize, const N: usize, const K: usize, S: Real> LinearMotion<Q, N,
         &mut self,
         part: Part,
         column: usize,
-        (moving, accelerated): (&[[S; LANES]; Q], &[[S; LANES]; N]),
+        slopes: &Outcome<[S; LANES], Q, N, P>,
         lane: usize,
     ) {
+        let (moving, accelerated, readings) =
+            (&slopes.moving, &slopes.accelerated, &slopes.readings);
         match part {
             Part::Coordinates => {
                 put(&mut self.rates_by_coordinates, column, moving, lane);
                 put(&mut self.by_coordinates, column, accelerated, lane);
+                put(&mut self.readings_by_coordinates, column, readings, lane);
             }
             Part::Speeds => {
                 put(&mut self.rates_by_speeds, column, moving, lane);
                 put(&mut self.by_speeds, column, accelerated, lane);
+                put(&mut self.readings_by_speeds, column, readings, lane);
             }
             Part::Values => {
                 put(&mut self.rates_by_values, column, moving, lane);
                 put(&mut self.by_values, column, accelerated, lane);
+                put(&mut self.readings_by_values, column, readings, lane);
             }
         }
     }
@@ -394,6 +460,9 @@ impl<const Q: usize, const N: usize, const K: usize, S: Real> LinearMotion<Q, N,
         finite_matrix(self.by_coordinates)?;
         finite_matrix(self.by_speeds)?;
         finite_matrix(self.by_values)?;
+        finite_matrix(self.readings_by_coordinates)?;
+        finite_matrix(self.readings_by_speeds)?;
+        finite_matrix(self.readings_by_values)?;
         Ok(self)
     }
 
@@ -420,5 +489,24 @@ impl<const Q: usize, const N: usize, const K: usize, S: Real> LinearMotion<Q, N,
                 self.by_values[(row - Q, column)]
             }
         })
+    }
+
+    /// `C`, for `X = Q + N`.
+    #[must_use]
+    pub fn c<const X: usize>(&self) -> SMatrix<S, P, X> {
+        const { assert!(X == Q + N, "a state has the coordinates and the speeds") };
+        SMatrix::from_fn(|row, column| {
+            if column < Q {
+                self.readings_by_coordinates[(row, column)]
+            } else {
+                self.readings_by_speeds[(row, column - Q)]
+            }
+        })
+    }
+
+    /// `D`.
+    #[must_use]
+    pub const fn d(&self) -> SMatrix<S, P, K> {
+        self.readings_by_values
     }
 }

@@ -32,7 +32,7 @@ fn straight(speed: f64) -> State {
 
 /// The rates of lean and steer, and the rate of a wheel; lean and steer, what the equations do not
 /// depend on, and the wheels.
-fn linear(speed: f64) -> LinearMotion<7, 3, 0> {
+fn linear(speed: f64) -> LinearMotion<7, 3, 0, 0> {
     let (bicycle, h) = (Bicycle::default(), Bicycle::HANDLES);
     // The fork is what moves freely; its turns about the second axis follow from the others.
     let free = |number| Motion::free(h.fork, number);
@@ -48,7 +48,7 @@ fn linear(speed: f64) -> LinearMotion<7, 3, 0> {
     let speeds = (free(3), h.steering, h.rear_hub);
     let space = bicycle.nonholonomic(coordinates, speeds).expect("a choice");
     let state = space.of_bodies(&straight(speed));
-    space.linearise(&state, []).expect("a linear model")
+    space.linearise(&state, [], |_| []).expect("a linear model")
 }
 
 /// The four eigenvalues that are not zero, by their real parts. Those that are zero are multiple

@@ -129,7 +129,7 @@ fn it_is_linear_about_a_motion() {
             continue;
         };
         let state = space.of_bodies(&bodies);
-        let Ok(linear) = space.linearise(&state, [h.push]) else {
+        let Ok(linear) = space.linearise(&state, [h.push], |_| []) else {
             continue;
         };
         let speed = space.speeds(&state)[0];
@@ -142,6 +142,57 @@ fn it_is_linear_about_a_motion() {
         assert!((mass[(1, 1)] - (j + m * a * a)).abs() < 1e-12);
     }
     assert!(least < 1e-12, "{least}");
+}
+
+/// Pushed and turning, with the speeds along x and about the vertical: `u_x' = a w^2 + F / m - w u_y`
+/// at the angle 0. The velocity aside, `a w / cos(angle) + u_x tan(angle)`, changes with the angle,
+/// the turn, and the place of the edge.
+#[test]
+fn inputs_push_and_readings_are_linear_too() {
+    let h = Sleigh::HANDLES;
+    let [m, j, a] = SLEIGH;
+    let sleigh = sleigh(0.0);
+    let motions = [0, 1, 2].map(|number| Motion::of(h.plane, number));
+    let [first, second, turn] = motions;
+    let (u, w) = (0.7, 1.3);
+    let mut bodies: StateOf<Sleigh> = sleigh.described_state().expect("as described");
+    Sleigh::set_angular_velocity_global(&mut bodies, h.sleigh, [0.0, 0.0, w].into());
+    Sleigh::set_velocity(&mut bodies, h.sleigh, [u, a * w, 0.0].into());
+    let mut spaces = [first, second].into_iter().filter_map(|along| {
+        let space = sleigh.nonholonomic(motions, [along, turn]).ok()?;
+        let speed = space.speeds(&space.of_bodies(&bodies))[0];
+        ((speed.abs() - u).abs() < 1e-12).then_some((space, speed / u))
+    });
+    let (mut space, sign) = spaces.next().expect("an axis of the plane along x");
+    let state = space.of_bodies(&bodies);
+    for push in [0.0, 0.4] {
+        let inputs = InputsOf::<Sleigh> { push };
+        space.set_inputs(&inputs).expect("a finite input");
+        let found = space.forward(&state, [0.0, 0.0]).expect("accelerations");
+        // That of `x` is that along the sleigh less what turns.
+        let along = a * w * w + push / m - w * a * w;
+        let turning = -m * a * u * w / (j + m * a * a);
+        assert!((sign * found[0] - along).abs() < 1e-12, "{push} {found}");
+        assert!((found[1] - turning).abs() < 1e-12, "{push} {found}");
+    }
+    let linear = space
+        .linearise(&state, [h.behind, h.push], |view| {
+            [view.velocity(h.sleigh).y, view.angular_velocity(h.sleigh).z]
+        })
+        .expect("a linear model");
+    let c = linear.c::<5>();
+    for (column, expected) in [0.0, 0.0, u, 0.0, a].into_iter().enumerate() {
+        assert!((c[(0, column)] - expected).abs() < 1e-12, "{c}");
+    }
+    assert!(
+        (c[(1, 4)] - 1.0).abs() < 1e-12 && c[(1, 2)].abs() < 1e-12,
+        "{c}"
+    );
+    let d = linear.d();
+    assert!(
+        (d[(0, 0)] - w).abs() < 1e-12 && d[(0, 1)].abs() < 1e-12,
+        "{d}"
+    );
 }
 
 #[test]
