@@ -68,7 +68,7 @@ fn apart(pen: &mut Pen) {
 const HEAD: V = V::new(0.0, -34.0, 8.0);
 const TAIL: V = V::new(0.0, 34.0, 8.0);
 
-const CELLS: [Cell; 27] = [
+const CELLS: [Cell; 30] = [
     ("Spherical", "point", |pen| {
         base(pen);
         pen.cylinder(Of::J, v(0.0, 8.0, 4.0), v(0.0, 56.0, 26.0), 6.0);
@@ -207,6 +207,41 @@ const CELLS: [Cell; 27] = [
         pen.way(v(30.0, -16.0, -20.0), v(30.0, 34.0, -20.0));
         pen.way(v(34.0, 4.0, -20.0), v(-30.0, 4.0, -20.0));
         pen.word("o", v(-20.0, -38.0, 28.0), [-20.0, -6.0], "normal");
+    }),
+    ("RollingBallInBowl", "center, bowl, axis, radius", |pen| {
+        pen.ball(Of::I, v(0.0, 0.0, 6.0), 46.0);
+        pen.ball(Of::J, v(0.0, 20.0, -17.0), 15.5);
+        pen.axis(v(0.0, 0.0, -46.0), v(0.0, 0.0, 66.0));
+        pen.dot(v(0.0, 0.0, 6.0));
+        pen.dot(v(0.0, 20.0, -17.0));
+        pen.way(v(0.0, -24.0, -18.0), v(0.0, 2.0, -28.0));
+        pen.word("o", v(0.0, 0.0, 6.0), [-30.0, -2.0], "bowl");
+        pen.word("o", v(0.0, 0.0, 66.0), [4.0, 6.0], "axis");
+    }),
+    ("WheelPair", "center_j, center_k, axle, normal", |pen| {
+        pen.block(Of::I, v(0.0, 0.0, -24.0), v(44.0, 46.0, 3.0));
+        pen.cylinder(Of::K, v(-34.0, 0.0, 3.0), v(-26.0, 0.0, 3.0), 24.0);
+        pen.axis(v(-52.0, 0.0, 3.0), v(60.0, 0.0, 3.0));
+        pen.cylinder(Of::J, v(22.0, 0.0, 3.0), v(30.0, 0.0, 3.0), 24.0);
+        pen.axis(v(-10.0, -40.0, -21.0), v(-10.0, -40.0, 28.0));
+        pen.dot(v(-10.0, -40.0, -21.0));
+        pen.dot(v(30.0, 0.0, 3.0));
+        pen.dot(v(-26.0, 0.0, 3.0));
+        pen.way(v(44.0, -16.0, -20.0), v(44.0, 34.0, -20.0));
+        pen.word("o", v(60.0, 0.0, 3.0), [-34.0, -2.0], "axle");
+        pen.word("o", v(-10.0, -40.0, 28.0), [-20.0, -6.0], "normal");
+    }),
+    ("RollingPair", "point, tangent", |pen| {
+        pen.block(Of::K, v(0.0, 4.0, -32.0), v(10.0, 54.0, 4.0));
+        pen.cylinder(Of::K, v(0.0, -32.0, -28.0), v(0.0, -32.0, 0.0), 4.0);
+        pen.cylinder(Of::K, v(0.0, 24.0, -28.0), v(0.0, 24.0, 0.0), 4.0);
+        pen.cylinder(Of::I, v(0.0, -32.0, -6.0), v(0.0, -32.0, 6.0), 20.0);
+        pen.cylinder(Of::J, v(0.0, 24.0, -6.0), v(0.0, 24.0, 6.0), 36.0);
+        pen.axis(v(-40.0, -12.0, 6.0), v(48.0, -12.0, 6.0));
+        pen.dot(v(0.0, -12.0, 6.0));
+        pen.turn(v(0.0, -32.0, 14.0), Z, 16.0 * Y, [-60.0, 70.0]);
+        pen.turn(v(0.0, 24.0, 14.0), Z, 30.0 * Y, [70.0, -50.0]);
+        pen.word("o", v(48.0, -12.0, 6.0), [-44.0, 8.0], "tangent");
     }),
     ("KnifeEdge", "point, side", |pen| {
         pen.block(Of::I, v(0.0, 0.0, -24.0), v(34.0, 50.0, 3.0));

@@ -31,7 +31,7 @@ const TREE: [&str; 12] = [
     "Fixed",
     "RevoluteRevolute",
 ];
-const LOOP: [&str; 22] = [
+const LOOP: [&str; 23] = [
     "Revolute",
     "Spherical",
     "Universal",
@@ -54,6 +54,7 @@ const LOOP: [&str; 22] = [
     "KnifeEdge",
     "RollingWheel",
     "RollingBall",
+    "RollingBallInBowl",
 ];
 const PLANAR: [&str; 6] = [
     "Revolute",
@@ -223,6 +224,7 @@ impl Generator {
             "RollingWheel" | "RollingBall" => {
                 entries.extend(self.rolling(ty == "RollingWheel", direction, &pair)?)
             }
+            "RollingBallInBowl" => entries.extend(self.in_bowl(direction, &pair)?),
             "AngleDriver" | "OrientationDriver" => {
                 entries.push(self.axis("axis", direction, &pair));
                 entries.push(("motion".into(), self.law(&[])));
@@ -291,12 +293,61 @@ impl Generator {
         Some(entries)
     }
 
+    /// A ball in a bowl about an axis, or on the outside of a sphere.
+    fn in_bowl(&mut self, axis: [f64; 3], pair: &[Option<usize>; 2]) -> Option<Entries> {
+        let (center, outward) = (self.point(), self.dice.unit::<3>());
+        let along: f64 = (0..3).map(|k| outward[k] * axis[k]).sum();
+        if along.abs() < 0.3 * length(axis) {
+            return None;
+        }
+        let radius = 0.2 + 0.3 * self.dice.number().abs();
+        let bowl_radius = [1.5 + radius, -0.8][self.dice.below(2)];
+        let bowl = [0, 1, 2].map(|k| center[k] - (bowl_radius - radius) * outward[k]);
+        Some(vec![
+            ("center".into(), self.written_point(center, pair)),
+            ("bowl".into(), self.written_point(bowl, pair)),
+            self.axis("axis", axis, pair),
+            ("radius".into(), self.number(radius)),
+            ("bowl_radius".into(), self.number(bowl_radius)),
+        ])
+    }
+
+    /// Two wheels of an axle that is perpendicular to the normal of their plane.
+    fn wheels(&mut self, axle: [f64; 3], bodies: &[Option<usize>]) -> Entries {
+        let (normal, center) = (self.across(axle), self.point());
+        let radius = 0.2 + 0.3 * self.dice.number().abs();
+        let [aside, far] = [0; 2].map(|_| cross(normal, self.dice.unit::<3>()));
+        let height = radius / length(normal);
+        let point = [0, 1, 2].map(|k| center[k] - height * normal[k] + aside[k]);
+        let other = [0, 1, 2].map(|k| center[k] + far[k]);
+        vec![
+            ("center_j".into(), self.written_point(center, bodies)),
+            ("center_k".into(), self.written_point(other, bodies)),
+            self.axis("axle", axle, bodies),
+            ("point".into(), self.written_point(point, bodies)),
+            self.axis("normal", normal, bodies),
+            ("radius".into(), self.number(radius)),
+        ]
+    }
+
     /// A joint of three bodies.
     pub(crate) fn of_three(&mut self, bodies: &[Option<usize>]) -> Option<(&'static str, Entries)> {
         if bodies.iter().any(|&body| self.is_particle(body)) {
             return None;
         }
         let (one, other) = (self.direction(), self.direction());
+        match self.dice.below(4) {
+            0 => return Some(("WheelPair", self.wheels(one, bodies))),
+            1 => {
+                let at = self.point();
+                let entries = vec![
+                    ("point".into(), self.written_point(at, bodies)),
+                    self.axis("tangent", one, bodies),
+                ];
+                return Some(("RollingPair", entries));
+            }
+            _ => {}
+        }
         let ratio = 0.5 + self.dice.number().abs();
         if self.dice.below(2) == 0 {
             let entries = vec![
