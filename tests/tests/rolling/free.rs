@@ -4,24 +4,36 @@ use holonom::Pose;
 use holonom::nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use holonom::prelude::*;
 
-/// A disc of 2 kg and 0.2 m.
+/// A disc of the same thickness everywhere.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "both")]
 pub(crate) struct Disc {
+    #[param]
+    mass: f64,
+    #[param]
+    radius: f64,
     /// The radius of the section of its tyre (m).
     #[param]
     crown: f64,
-    #[body(mass = 2.0, inertia = [0.02, 0.04, 0.02], position = [0.0, 0.0, 0.2])]
+    #[body(
+        mass = mass,
+        inertia = [0.25 * mass * radius * radius, 0.5 * mass * radius * radius, 0.25 * mass * radius * radius],
+        position = [0.0, 0.0, radius]
+    )]
     disc: Body,
     #[joint(
-        between = [ground, disc], center = [0.0, 0.0, 0.2], axle = [0.0, 1.0, 0.0], point = [0.0, 0.0, 0.0],
-        normal = [0.0, 0.0, 1.0], radius = 0.2, crown = crown
+        between = [ground, disc], center = [0.0, 0.0, radius], axle = [0.0, 1.0, 0.0], point = [0.0, 0.0, 0.0],
+        normal = [0.0, 0.0, 1.0], radius = radius, crown = crown
     )]
     contact: RollingWheel,
 }
 
-/// Mass, diametral and axial moment, radius, gravity.
-const DISC: [f64; 5] = [2.0, 0.02, 0.04, 0.2, 9.81];
+/// A disc of 2 kg and 0.2 m.
+pub(crate) fn disc(crown: f64) -> Disc {
+    Disc::new(2.0, 0.2, crown).expect("a disc")
+}
+
+pub(crate) const GRAVITY: f64 = 9.81;
 
 /// The disc in a steady circle: leant by an angle from upright, its plane turning about the
 /// vertical at a rate; and the radius of the circle of its centre.
@@ -29,18 +41,16 @@ const DISC: [f64; 5] = [2.0, 0.02, 0.04, 0.2, 9.81];
 /// With `u` the direction from the contact to the centre and `a` the axle, the angular momentum
 /// `A W cos(lean) u + C w a` is carried round by `W`, and the force on the contact is
 /// `m (W V h + g k)`: `W cos(lean) (A W sin(lean) - C w) = m r (W r w cos(lean) + g sin(lean))`.
-fn steady(lean: f64, turn: f64) -> (StateOf<Disc>, f64) {
-    let [m, of_diameter, of_axle, r, g] = DISC;
+pub(crate) fn steady(of: &Disc, lean: f64, turn: f64) -> (StateOf<Disc>, f64) {
+    let (m, r, g) = (of.mass, of.radius, GRAVITY);
+    let (of_diameter, of_axle) = (0.25 * m * r * r, 0.5 * m * r * r);
     let (sine, cosine) = lean.sin_cos();
     let spin = (of_diameter * turn * turn * cosine * sine - m * g * r * sine)
         / (turn * cosine * (of_axle + m * r * r));
     let (along, up) = (Vector3::y(), Vector3::z());
     let axle = cosine * along + sine * up;
     let upward = cosine * up - sine * along;
-    let mut state: StateOf<Disc> = Disc::new(0.0)
-        .expect("a disc")
-        .described_state()
-        .expect("as described");
+    let mut state: StateOf<Disc> = of.described_state().expect("as described");
     let turned = Rotation3::rotation_between(&along, &axle).expect("no half turn");
     let disc = Disc::HANDLES.disc;
     let position = r * upward;
@@ -62,7 +72,7 @@ fn steady(lean: f64, turn: f64) -> (StateOf<Disc>, f64) {
 #[test]
 fn a_disc_rolls_in_a_steady_circle() {
     let h = Disc::HANDLES;
-    let disc = Disc::new(0.0).expect("a disc");
+    let disc = disc(0.0);
     for (lean, turn) in [
         (0.3, 2.0),
         (0.8, -3.0),
@@ -72,7 +82,7 @@ fn a_disc_rolls_in_a_steady_circle() {
         (core::f64::consts::FRAC_PI_2 - 2e-4, 1010.0),
         (0.5, 1e4),
     ] {
-        let (state, circle) = steady(lean, turn);
+        let (state, circle) = steady(&disc, lean, turn);
         let period = core::f64::consts::TAU / turn.abs();
         let mut places = Vec::new();
         let mut observe = |sample: &Sample<'_, f64, Disc>| {
@@ -113,7 +123,7 @@ fn a_disc_rolls_in_a_steady_circle() {
 #[test]
 fn a_leaning_wheel_keeps_its_energy() {
     for crown in [0.0, 0.05, 0.2] {
-        let disc = Disc::new(crown).expect("a disc");
+        let disc = disc(crown);
         let h = Disc::HANDLES;
         let mut state: StateOf<Disc> = disc.described_state().expect("as described");
         let spin = Vector3::new(0.4, 5.0, 0.3);
@@ -137,8 +147,8 @@ fn a_leaning_wheel_keeps_its_energy() {
 
 #[test]
 fn a_disc_that_falls_flat_is_a_fault() {
-    let (disc, h) = (Disc::new(0.0).expect("a disc"), Disc::HANDLES);
-    let (mut state, _) = steady(1.2, 1.0);
+    let (disc, h) = (disc(0.0), Disc::HANDLES);
+    let (mut state, _) = steady(&disc, 1.2, 1.0);
     Disc::set_velocity(&mut state, h.disc, Vector3::zeros());
     Disc::set_angular_velocity_global(&mut state, h.disc, Vector3::zeros());
     let run = Simulation::new(&disc, StandardLagrange, DormandPrince::default())

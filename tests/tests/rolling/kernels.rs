@@ -7,7 +7,10 @@ use holonom::state::Array;
 use holonom::{Forward, Mechanism};
 use holonom_models::Bicycle;
 
-use crate::free::{Disc, Drum, Table};
+use crate::bowl::Bowl;
+use crate::free::{Disc, Drum, Table, disc};
+use crate::rattleback::Rattleback;
+use crate::robot::{Robot, Shafts};
 use crate::sleigh::sleigh;
 
 type Dual = Forward<f64, 1>;
@@ -114,16 +117,20 @@ fn are_derivatives<M: Mechanism>(mechanism: &M) {
 #[test]
 fn rows_are_derivatives_of_rates() {
     are_derivatives(&Bicycle::default());
-    are_derivatives(&Disc::new(0.03).expect("a disc"));
+    are_derivatives(&disc(0.03));
     are_derivatives(&Table::new(3.0).expect("a table"));
     are_derivatives(&sleigh(0.4));
     are_derivatives(&Drum::default());
+    are_derivatives(&Bowl::new(0.6).expect("a bowl"));
+    are_derivatives(&Robot::new(0.08, 3.0, 5.0).expect("a robot"));
+    are_derivatives(&Shafts::default());
+    are_derivatives(&Rattleback::new(-0.05).expect("a rattleback"));
 }
 
 /// The slip of a disc, and that it touches, by the angular velocity and the lowest point.
 #[test]
 fn a_wheel_slips_by_what_its_lowest_point_does() {
-    let disc = Disc::new(0.0).expect("a disc");
+    let disc = disc(0.0);
     let constants = disc.constants::<f64>().expect("parameters");
     let h = Disc::HANDLES;
     for seed in 0..50 {

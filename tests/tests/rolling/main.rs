@@ -3,8 +3,12 @@
 #![forbid(unsafe_code)]
 
 mod bicycle;
+mod bowl;
+mod disc;
 mod free;
 mod kernels;
+mod rattleback;
+mod robot;
 mod sleigh;
 
 use holonom_fixtures as _;
