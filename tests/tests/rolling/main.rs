@@ -10,5 +10,6 @@ mod kernels;
 mod rattleback;
 mod robot;
 mod sleigh;
+mod snakeboard;
 
 use holonom_fixtures as _;
