@@ -234,9 +234,9 @@ where
         self.speeds.forward(state, efforts)
     }
 
-    /// The equations of motion and some readings, linear about a state that moves: how rates of
-    /// coordinates, those of speeds, and readings change with coordinates, speeds and the `values`,
-    /// parameters or inputs by handle. What is not chosen follows.
+    /// The equations of motion and some readings, linear about a state that moves. The rates of
+    /// coordinates and of speeds, and the readings, change with coordinates, speeds and the
+    /// `values`, parameters or inputs by handle. What is not chosen follows.
     ///
     /// `read` takes what is wanted from a view, over numbers that carry derivatives; `|_| []` where
     /// nothing is.

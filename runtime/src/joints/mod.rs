@@ -21,7 +21,7 @@
 //! | [`RollingWheel`] | plane i, wheel j | 3, of which 2 of velocities | leaning, steering and rolling |
 //! | [`RollingBall`] | plane i, ball j | 3, of which 2 of velocities | rolling and spinning |
 //! | [`RollingBallInBowl`] | bowl i, ball j | 3, of which 2 of velocities | rolling and spinning |
-//! | [`WheelPair`] | plane i, wheels j, k | 5, of which 3 of velocities | a cart that drives and turns |
+//! | [`WheelPair`] | plane i, wheels j, k | 5, of which 3 of velocities | driving and turning |
 //! | [`RollingPair`] | i, j, carrier k | 1 of velocities | two rates in proportion |
 //! | [`KnifeEdge`] | i, j | 1 of velocities | all but a movement sideways |
 //! | [`Perpendicular1`], [`Perpendicular2`] | i, j | 1 | constraints between two vectors |

@@ -124,7 +124,7 @@ crate::joint! {
 }
 
 crate::joint! {
-    /// Two bodies `i` and `j` roll on each other at a `point` of their carrier `k`: their material
+    /// Two bodies `i` and `j` roll on each other at a `point` of their carrier `k`. Their material
     /// points there have the same velocity along `tangent`, which is fixed on `k`. Cylinders,
     /// bevels and crossed axes in mesh, friction wheels.
     ///

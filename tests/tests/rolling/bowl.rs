@@ -26,9 +26,9 @@ pub(crate) struct Bowl {
 /// Mass, moment of inertia, radius, gravity.
 const BALL: [f64; 4] = [0.7, 0.4 * 0.7 * 0.05 * 0.05, 0.05, 9.81];
 
-/// The state at an angle from the bottom, or from the top outside, with a velocity and a spin
-/// about the line of the centres; and the direction `u` from the ball to the point of contact.
-/// Without slip, `w = v x u / r + spin u`.
+/// The state at an angle from the bottom, or from the top outside, and the direction `u` from the
+/// ball to the point of contact. The spin is that about `u`. Without slip,
+/// `w = v x u / r + spin u`.
 fn state(
     bowl: &Bowl,
     angle: f64,
@@ -53,9 +53,9 @@ fn state(
     (state, outward)
 }
 
-/// The ball in a horizontal circle, carried round at a rate `W`, has the velocity `W l k x u` and
-/// the angular velocity `s u - (l / r) W k`, with `l` the radius of the bowl less that of the ball.
-/// The moment of the contact, `r u x m (a + g k)`, turns its angular momentum:
+/// The ball is carried round a horizontal circle at a rate `W`. With `l` the radius of the bowl
+/// less that of the ball, it has the velocity `W l k x u` and spins at `s u - (l / r) W k`. The
+/// moment of the contact, `r u x m (a + g k)`, turns its angular momentum:
 /// `J W s = r m (W^2 l cos(angle) - g)`.
 #[test]
 fn a_ball_runs_in_horizontal_circles() {
@@ -108,9 +108,9 @@ fn a_ball_runs_in_horizontal_circles() {
     }
 }
 
-/// However it runs, the spin about the line of the centres stays, the energy, and the moment of
-/// momentum about the vertical less `l / r` times that of the spin: with `J w' = r u x F` and the
-/// place `l u`, both take the same moment of the contact.
+/// However it runs, the energy and the spin about the line of the centres stay. So does the moment
+/// of momentum about the vertical less `l / r` times that of the spin. With `J w' = r u x F` and
+/// the place `l u`, both take the same moment of the contact.
 #[test]
 fn the_spin_about_the_line_of_the_centres_stays() {
     let [mass, inertia, radius, _] = BALL;

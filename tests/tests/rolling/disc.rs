@@ -6,8 +6,8 @@ use holonom::prelude::*;
 
 use crate::free::{Disc, GRAVITY, disc, steady};
 
-/// Discs from 1 mm to 1 km, from 1 mg to 1000 t, with turns up to 10 000 rad/s, against the closed
-/// form: relative to the radius of the circle, or of the disc where that is larger.
+/// Discs from 1 mm to 1 km and from 1 mg to 1000 t, with turns up to 10 000 rad/s. Errors are
+/// relative to the radius of the circle, or of the disc where that is larger.
 #[test]
 fn discs_of_all_sizes_roll_in_steady_circles() {
     let h = Disc::HANDLES;

@@ -8,7 +8,8 @@ holonom::joint! {
     /// An ellipsoid `j` rolls on a plane of `i`. Its half-axes (m) are along `first`, `second` and
     /// what is perpendicular to both.
     pub(crate) joint RollingEllipsoid(
-        i, j; center: Point, first: Axis, second: Axis, point: Point, normal: Axis, a: Length, b: Length, c: Length
+        i, j; center: Point, first: Axis, second: Axis, point: Point, normal: Axis,
+        a: Length, b: Length, c: Length
     ) {
         let third = cross(j.first, j.second);
         let reach = a * a * dot(i.normal, j.first) * j.first
@@ -33,9 +34,9 @@ pub(crate) struct Rattleback {
     #[body(mass = 1.0, inertia = [2e-4, 1.6e-3, 1.7e-3], position = [0.0, 0.0, 0.01])]
     stone: Body,
     #[joint(
-        between = [ground, stone], center = [0.0, 0.0, 0.02], first = [cos(turned), sin(turned), 0.0],
-        second = [-sin(turned), cos(turned), 0.0], point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0],
-        a = 0.2, b = 0.03, c = 0.02
+        between = [ground, stone], center = [0.0, 0.0, 0.02],
+        first = [cos(turned), sin(turned), 0.0], second = [-sin(turned), cos(turned), 0.0],
+        point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0], a = 0.2, b = 0.03, c = 0.02
     )]
     contact: RollingEllipsoid,
 }
@@ -116,8 +117,7 @@ impl Stone {
         }
     }
 
-    /// By steps of the midpoint rule that are extrapolated (Hairer, Norsett and Wanner 1993, section
-    /// II.9).
+    /// By extrapolated steps of the midpoint rule (Hairer, Norsett and Wanner 1993, section II.9).
     fn after(mut self, steps: usize, step: f64) -> Stone {
         const COUNTS: [u32; 6] = [2, 4, 6, 8, 10, 12];
         for _ in 0..steps {

@@ -144,9 +144,9 @@ fn it_is_linear_about_a_motion() {
     assert!(least < 1e-12, "{least}");
 }
 
-/// Pushed and turning, with the speeds along x and about the vertical: `u_x' = a w^2 + F / m - w u_y`
-/// at the angle 0. The velocity aside, `a w / cos(angle) + u_x tan(angle)`, changes with the angle,
-/// the turn, and the place of the edge.
+/// Pushed and turning, with the speeds along x and about the vertical. At the angle 0 the first has
+/// the rate `a w^2 + F / m - w u_y`. The velocity aside is `a w / cos(angle) + u_x tan(angle)`: it
+/// changes with the angle, the turn, and the place of the edge.
 #[test]
 fn inputs_push_and_readings_are_linear_too() {
     let h = Sleigh::HANDLES;
