@@ -113,13 +113,16 @@ crate::joint! {
         let second = k.center_k - i.point;
         dot(i.normal, first) - radius;
         dot(i.normal, second) - radius;
+        let slip = rate(first) - cross(angular_velocity(i), first)
+            - radius * cross(angular_velocity(i, j), i.normal);
+        dot(j.axle, slip);
         let along = cross(j.axle, i.normal);
-        let turn = angular_velocity(i);
-        let speed = rate(first) - cross(turn, first);
-        dot(j.axle, speed);
-        dot(along, speed) - radius * dot(j.axle, angular_velocity(i, j));
-        dot(along, rate(second) - cross(turn, second))
-            - radius * dot(j.axle, angular_velocity(i, k));
+        dot(along, slip);
+        dot(
+            along,
+            rate(second) - cross(angular_velocity(i), second)
+                - radius * cross(angular_velocity(i, k), i.normal),
+        );
     }
 }
 

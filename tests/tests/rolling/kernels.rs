@@ -125,6 +125,7 @@ fn rows_are_derivatives_of_rates() {
     are_derivatives(&Robot::new(0.08, 3.0, 5.0).expect("a robot"));
     are_derivatives(&Shafts::default());
     are_derivatives(&Rattleback::new(-0.05).expect("a rattleback"));
+    are_derivatives(&Carried::default());
 }
 
 /// The slip of a disc, and that it touches, by the angular velocity and the lowest point.
@@ -146,5 +147,87 @@ fn a_wheel_slips_by_what_its_lowest_point_does() {
         // Along two directions of the plane that are perpendicular.
         let found: f64 = rates.as_slice()[1..].iter().map(|rate| rate * rate).sum();
         assert!((found - slip.xy().norm_squared()).abs() < 1e-12 * (1.0 + found));
+    }
+}
+
+/// A base that moves, a ball in its bowl, and two wheels on its plane that touch each other.
+#[derive(Mechanism)]
+struct Carried {
+    #[body(mass = 3.0, inertia = [1.0, 1.0, 1.0], position = [0.1, 0.2, 0.3])]
+    base: Body,
+    #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], position = [0.0, 0.0, -0.55])]
+    ball: Body,
+    #[body(mass = 1.0, inertia = [1.0, 2.0, 1.0], position = [0.0, 0.2, 0.1])]
+    left: Body,
+    #[body(mass = 1.0, inertia = [1.0, 2.0, 1.0], position = [0.0, -0.2, 0.1])]
+    right: Body,
+    #[joint(
+        between = [base, ball], center = [0.0, 0.0, -0.55], bowl = [0.0, 0.0, 0.0],
+        axis = [0.0, 0.0, 1.0], radius = 0.05, bowl_radius = 0.6
+    )]
+    bowl: RollingBallInBowl,
+    #[joint(
+        between = [base, left, right], center_j = [0.0, 0.2, 0.1], center_k = [0.0, -0.2, 0.1],
+        axle = [0.0, 1.0, 0.0], point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0], radius = 0.1
+    )]
+    wheels: WheelPair,
+    #[joint(between = [left, right, base], point = [0.2, 0.0, 0.1], tangent = [1.0, 0.0, 0.0])]
+    pair: RollingPair,
+}
+
+/// On what moves, bodies slip by the velocities of their material points against each other.
+#[test]
+fn what_is_carried_slips_by_its_material_points() {
+    let carried = Carried::default();
+    let constants = carried.constants::<f64>().expect("parameters");
+    let h = Carried::HANDLES;
+    for seed in 0..50 {
+        let state = any::<Carried>(seed);
+        let base = Carried::pose(&state, h.base);
+        let turned = UnitQuaternion::new_normalize(base.orientation);
+        let place = |body| Carried::pose(&state, body).position;
+        let velocity = |body, at: Vector3<f64>| {
+            let spin = Carried::angular_velocity_global(&state, body);
+            Carried::velocity(&state, body) + spin.cross(&(at - place(body)))
+        };
+        let slip = |body, against, at| velocity(body, at) - velocity(against, at);
+        let on_base = |point: [f64; 3]| {
+            base.position + turned * (Vector3::from(point) - Vector3::new(0.1, 0.2, 0.3))
+        };
+        let phi = Carried::constraints(&constants, 0.0, &state);
+        let rates = Carried::constraint_rates(&constants, 0.0, &state);
+        let (phi, rates) = (phi.as_slice(), rates.as_slice());
+
+        let line = place(h.ball) - on_base([0.0; 3]);
+        let outward = line / 0.55;
+        assert!((phi[0] - 0.5 * (line.norm_squared() / 0.55 - 0.55)).abs() < 1e-13);
+        let of_ball = slip(h.ball, h.base, place(h.ball) + 0.05 * outward);
+        let across = turned.inverse() * outward.cross(&of_ball);
+        let found: f64 = rates[1..3].iter().map(|rate| rate * rate).sum();
+        assert!((found - across.xy().norm_squared()).abs() < 1e-12 * (1.0 + found));
+
+        let normal = turned * Vector3::z();
+        let left = UnitQuaternion::new_normalize(Carried::pose(&state, h.left).orientation);
+        let axle = left * Vector3::y();
+        let [of_left, of_right] = [h.left, h.right].map(|wheel| {
+            let height = normal.dot(&(place(wheel) - on_base([0.0; 3])));
+            (height, slip(wheel, h.base, place(wheel) - 0.1 * normal))
+        });
+        let along = axle.cross(&normal);
+        let of_pair = slip(h.right, h.left, on_base([0.2, 0.0, 0.1]));
+        for (found, expected) in [
+            (phi[3], of_left.0 - 0.1),
+            (phi[4], of_right.0 - 0.1),
+            (rates[5], axle.dot(&of_left.1)),
+            (rates[6], along.dot(&of_left.1)),
+            (rates[7], along.dot(&of_right.1)),
+            (rates[8], (turned * Vector3::x()).dot(&of_pair)),
+        ] {
+            let off = (found - expected).abs();
+            assert!(
+                off < 1e-12 * (1.0 + expected.abs()),
+                "{found} for {expected}"
+            );
+        }
     }
 }

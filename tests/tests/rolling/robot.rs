@@ -41,6 +41,9 @@ pub(crate) struct Robot {
 /// At constant rates of its wheels the robot turns at `W = r (right - left) / (2 b)`, about a
 /// centre `v / W` beside it, with `v = r (right + left) / 2`. Its centre of mass, `a` before the
 /// axle, takes `m a W^2` towards the axle and the moment `m a v W`: the motors push it.
+///
+/// Wheels of masses `n` and moments of inertia `J` load each other by what is turned about the
+/// ground under the axle: `b (N_l - N_r) = -(m z + 2 n r) v W - J (left + right) W`.
 #[test]
 fn a_differential_drive_runs_along_an_arc() {
     let (h, [mass, radius, half_track]) = (Robot::HANDLES, [6.0, 0.1, 0.2]);
@@ -68,6 +71,19 @@ fn a_differential_drive_runs_along_an_arc() {
                 let effort = sample.driving_effort(motor)?;
                 assert!((effort - radius * push).abs() < 1e-9, "{effort} {push}");
             }
+            let ahead = Vector3::new(cosine, sine, 0.0);
+            let [of_left, of_right] = [
+                sample.reaction(h.wheels, h.left)?,
+                sample.reaction(h.wheels, h.right)?,
+            ];
+            let across = of_left.force.dot(&Vector3::new(-sine, cosine, 0.0));
+            assert!((across - (mass + 1.0) * speed * turn).abs() < 1e-8);
+            let lean = (0.15 * mass + 1.0 * radius) * speed * turn + 0.003 * (left + right) * turn;
+            let load = half_track * (of_left.force.z - of_right.force.z);
+            assert!((load + lean).abs() < 1e-8, "{load} {lean}");
+            // At the point of contact, the radius under the centre.
+            let moment = of_left.moment.dot(&ahead);
+            assert!((moment - radius * across).abs() < 1e-8, "{moment} {across}");
             Ok(())
         };
         let simulation = || Simulation::new(&robot, StandardLagrange, Rk4::every(1e-3)).assembled();
