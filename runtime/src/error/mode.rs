@@ -36,10 +36,29 @@ pub enum ModeFault {
         time: f64,
     },
     /// Friction by the load of its joint has no effort while it slides, or several: what it adds to
-    /// its own load, times its coefficient, reaches 1 (Painleve's paradox).
+    /// its own load, times its coefficient, reaches 1 (Painleve's paradox). Of a contact: no
+    /// efforts fit all contacts that are closed, or several do with different motions.
     NoUniqueFriction {
-        /// The field of the joint.
+        /// The field of the joint or the point.
         joint: &'static str,
+        /// The time (s).
+        time: f64,
+    },
+    /// More contacts with friction are closed at once than all choices of their modes can be tried
+    /// for: nine at rest, or fewer beside other interactions.
+    TooManyContacts {
+        /// The field of the body or the point of one of them.
+        joint: &'static str,
+        /// The time (s).
+        time: f64,
+    },
+    /// Impulses with friction and Newton's restitution would bring energy to the mechanism (Kane's
+    /// paradox).
+    GainsEnergy {
+        /// The field of the body or the point of one of the contacts.
+        joint: &'static str,
+        /// How much (J).
+        gained: f64,
         /// The time (s).
         time: f64,
     },
@@ -118,6 +137,23 @@ impl fmt::Display for ModeFault {
                 "at {} s the friction of `{joint}` by its load has no effort, or several (Painleve's paradox): what it adds to its own load, times its coefficient, \
                  reaches 1; take a smaller coefficient, a longer guide, or a spring and a damper that bear the load",
                 Given(time)
+            ),
+            Self::TooManyContacts { joint, time } => write!(
+                f,
+                "at {} s too many contacts with friction are closed at once, that of `{joint}` among them: nine at rest are the most; \
+                 leave out contacts that bear nothing",
+                Given(time)
+            ),
+            Self::GainsEnergy {
+                joint,
+                gained,
+                time,
+            } => write!(
+                f,
+                "at {} s the impact of `{joint}` would bring {} J to the mechanism: Newton's restitution does so with friction (Kane's paradox); \
+                 take `restitution_of_impulses`",
+                Given(time),
+                Given(gained)
             ),
             Self::CapacityFactor {
                 joint,

@@ -5,7 +5,7 @@ use crate::math::scalar::Real;
 use crate::mechanism::kernels::{Mechanism, have_equations};
 use crate::nonsmooth::bearing::Bearing;
 use crate::nonsmooth::interaction::Interaction;
-use crate::nonsmooth::law::{Friction, Law, Limits};
+use crate::nonsmooth::law::{Friction, Law, Limits, Tangent};
 use crate::nonsmooth::quantity::{JointReading, Quantity};
 use crate::nonsmooth::status::Tracked;
 
@@ -70,10 +70,13 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
                 setting,
             }));
         }
-        if let Quantity::Gap(_, plane) = self.quantity
-            && !plane.is_finite()
-        {
-            return refuse("normal", S::zero());
+        if let Quantity::Gap(_, plane, shape) = self.quantity {
+            if let Err(setting) = plane.check() {
+                return refuse(setting, S::zero());
+            }
+            if let Err((setting, length)) = shape.check() {
+                return refuse(setting, length);
+            }
         }
         if let (Quantity::Distance(..), Some(limits)) = (self.quantity, self.law.limits()) {
             self.check_distances(limits)?;
@@ -100,6 +103,53 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
 
 /// Refuses settings of a list that are not acceptable.
 pub(crate) fn check_all<S: Real, M: Mechanism>(list: &[Tracked<S, M>]) -> Result<(), Fault> {
-    list.iter()
-        .try_for_each(|tracked| tracked.interaction.check())
+    let has_tangents = list.iter().any(|tracked| tracked.tangent().is_some());
+    for (index, tracked) in list.iter().enumerate() {
+        tracked.interaction.check()?;
+        let misplaced = |setting| {
+            Err(Fault::Start(StartFault::MisplacedSetting {
+                joint: tracked.interaction.name(),
+                setting,
+            }))
+        };
+        if has_tangents && tracked.bearing().is_some() {
+            return misplaced("friction_by_load beside a contact with friction");
+        }
+        if let Some(tangent) = tracked.tangent()
+            && !stands_behind(list, index, tangent)
+        {
+            return misplaced("with_friction, apart from its contact");
+        }
+    }
+    Ok(())
+}
+
+/// Whether friction of a contact stands behind it, in all of its directions.
+fn stands_behind<S: Real, M: Mechanism>(
+    list: &[Tracked<S, M>],
+    index: usize,
+    tangent: Tangent,
+) -> bool {
+    let contact = index.checked_sub(tangent.behind);
+    let Some(contact) = contact.and_then(|index| Some((index, list.get(index)?))) else {
+        return false;
+    };
+    let (place, contact) = contact;
+    let is_of_it = |tracked: &Tracked<S, M>| match (
+        tracked.interaction.quantity,
+        contact.interaction.quantity,
+    ) {
+        (Quantity::Slip(at, plane, shape, _), Quantity::Gap(of, on, with)) => {
+            (at, plane, shape) == (of, on, with)
+        }
+        _ => false,
+    };
+    let count = if tangent.has_both { 2 } else { 1 };
+    (1..=count).all(|behind| {
+        let direction = place.checked_add(behind).and_then(|index| list.get(index));
+        direction.is_some_and(|tracked| {
+            let stands = Some(Tangent { behind, ..tangent });
+            tracked.tangent() == stands && is_of_it(tracked)
+        })
+    })
 }

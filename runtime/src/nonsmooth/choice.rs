@@ -8,6 +8,7 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors, Place};
 use crate::nonsmooth::capacities::Capacities;
 use crate::nonsmooth::columns::{Columns, Setting};
+use crate::nonsmooth::cones::{self, are_rough};
 use crate::nonsmooth::law::Friction;
 use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::mode::InteractionMode;
@@ -45,6 +46,9 @@ where
     F: Formulation<S>,
     C: Coordinates<M>,
 {
+    if are_rough(list) {
+        return cones::modes(setting, list, free);
+    }
     let chosen = list.each_ref().map(|tracked| {
         let next = tracked.status.next;
         !matches!(next, Next::Without)
@@ -392,7 +396,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 
     /// Enters a mode with its effort, the one that would hold it alone, and the size of those that
     /// are at work.
-    fn enter(
+    pub(super) fn enter(
         &mut self,
         mode: InteractionMode,
         scene: &Scene<'_, S, M>,

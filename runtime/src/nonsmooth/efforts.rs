@@ -7,6 +7,7 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::Factors;
 use crate::nonsmooth::columns::{Columns, Setting};
+use crate::nonsmooth::cones::{self, are_rough};
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::mode::InteractionMode;
@@ -49,15 +50,17 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 
     /// Its power (W) in a state by its effort. What holds has none: its rate is zero.
     pub(crate) fn power(&self, effort: S, scene: &Scene<'_, S, M>) -> S {
-        match self.mode().sliding::<S>() {
-            Some(_) => effort * self.interaction.quantity.rate(scene),
-            None => S::zero(),
+        if self.mode().slides() {
+            effort * self.interaction.quantity.rate(scene)
+        } else {
+            S::zero()
         }
     }
 
     /// Whether it slides by its load.
     pub(crate) fn slips_by_load(&self) -> bool {
-        self.bearing().is_some() && self.mode().sliding::<S>().is_some()
+        let slides = self.bearing().is_some() && self.mode().sliding::<S>().is_some();
+        slides || self.mode() == InteractionMode::Slipping
     }
 
     /// The fault of an effort of this friction.
@@ -102,6 +105,9 @@ where
     F: Formulation<S>,
     C: Coordinates<M>,
 {
+    if are_rough(list) {
+        return cones::complete(setting, list, (solution, show));
+    }
     let holds = list.each_ref().map(|tracked| tracked.mode().holds());
     let any_holds = holds.contains(&true);
     let mut chosen = holds;
@@ -166,6 +172,7 @@ where
                 Exerted {
                     effort: tracked.sliding_effort(scene).unwrap_or(effort),
                     capacity: tracked.capacity(loads.map(|loads| loads[index])),
+                    size: S::zero(),
                 }
             })
         });
@@ -178,7 +185,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// Whether its effort asks for its load, or its capacity, where efforts are wanted.
     pub(crate) fn asks_for_load(&self, is_wanted: bool) -> bool {
         let sticks = is_wanted && self.mode() == InteractionMode::Sticking;
-        self.slips_by_load() || sticks && self.bearing().is_some()
+        self.bearing().is_some() && (self.slips_by_load() || sticks)
     }
 
     /// The largest effort at rest, by its load where it goes with one: that which was known last

@@ -188,14 +188,15 @@ pub(crate) fn effort_of<S: Real, M: Mechanism>(
     Ok(effort)
 }
 
-/// Engages or releases what a handle names. A limit is neither.
+/// Engages or releases what a handle names. A limit is neither, nor friction of a contact.
 pub(crate) fn engage<S: Real, M: Mechanism>(
     list: &mut [Tracked<S, M>],
     handle: InteractionHandle<M>,
     is_engaged: bool,
 ) -> Result<(), Fault> {
     let (place, tracked) = named(list, handle)?;
-    if tracked.interaction.law.limits().is_some() {
+    let law = &tracked.interaction.law;
+    if law.limits().is_some() || law.tangent().is_some() {
         return Err(Fault::Start(StartFault::MisplacedSetting {
             joint: tracked.interaction.name(),
             setting: if is_engaged { "engage" } else { "release" },

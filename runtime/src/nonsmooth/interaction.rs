@@ -10,8 +10,9 @@ use crate::mechanism::limits::JointLimits;
 use crate::mechanism::point::Located;
 use crate::nonsmooth::bearing::{Bearing, HasBearing};
 use crate::nonsmooth::law::{Friction, Law, Limits, Rest};
-use crate::nonsmooth::place::{At, Plane};
+use crate::nonsmooth::place::At;
 use crate::nonsmooth::quantity::{JointQuantity, JointReading, Quantity};
+use crate::nonsmooth::shape::Shape;
 
 /// What holds a quantity of a mechanism by turns, and lets it go by turns: a limit, dry friction, a
 /// brake or a clutch. For [`Simulation::interactions`](crate::Simulation::interactions), see
@@ -46,7 +47,7 @@ impl<S: Debug, M> Debug for Interaction<S, M> {
 }
 
 impl<S: Real, M: Mechanism> Interaction<S, M> {
-    fn new(quantity: Quantity<S>, law: Law<S>) -> Self {
+    pub(super) fn new(quantity: Quantity<S>, law: Law<S>) -> Self {
         Self {
             quantity,
             law,
@@ -110,13 +111,6 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     pub fn limits(quantity: JointQuantity<M>, bounds: [S; 2]) -> Self {
         let law = Law::Limits(Limits::between(bounds));
         Self::new(Quantity::Joint(quantity.reading), law)
-    }
-
-    /// A point of a body, or a centre of mass, that does not pass a plane: a limit on its distance
-    /// from it (m), without friction. With [`Interaction::radius`] it is the centre of a ball.
-    #[must_use]
-    pub fn contact(point: impl Located<M>, plane: Plane<S, M>) -> Self {
-        Self::apart(Quantity::Gap(At::of(point), plane.place), S::zero())
     }
 
     /// Two points whose distance is at least this one (m), without friction: two balls, with the
@@ -184,20 +178,16 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         Self::new(quantity, Law::Limits(Limits::between(bounds)))
     }
 
-    fn apart(quantity: Quantity<S>, least: S) -> Self {
+    pub(super) fn apart(quantity: Quantity<S>, least: S) -> Self {
         let bounds = [least, S::constant(f64::INFINITY)];
         Self::new(quantity, Law::Limits(Limits::between(bounds)))
     }
 
-    /// The least distance (m) of a point from the plane of [`Interaction::contact`]; the radius (m)
-    /// at which a hinge with [`Interaction::friction_by_load`] rubs, and the mean one of a thread.
+    /// The radius (m) of a ball about the point of [`Interaction::contact`]; the radius (m) at which a hinge with [`Interaction::friction_by_load`] rubs, and the mean one of a thread.
     #[must_use]
     pub fn radius(mut self, radius: S) -> Self {
-        match (&mut self.law, &self.quantity) {
-            (Law::Limits(limits), Quantity::Gap(..)) => {
-                let [least, _] = &mut limits.bounds;
-                *least = radius;
-            }
+        match (&mut self.law, &mut self.quantity) {
+            (Law::Limits(_), Quantity::Gap(_, _, Shape::Ball(place))) => *place = radius,
             (
                 Law::Friction(Friction {
                     bearing: Some(bearing),
@@ -289,7 +279,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         } else {
             JointReading::Displacement(joint.index())
         };
-        Self::dry(Quantity::Joint(reading), coefficient).with_friction("load", |friction| {
+        Self::dry(Quantity::Joint(reading), coefficient).friction_setting("load", |friction| {
             friction.bearing = Some(Bearing {
                 radius: None,
                 half_length: None,
@@ -378,6 +368,21 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         self
     }
 
+    /// Poisson's coefficient of restitution, from 0 to 1, in place of Newton's: the impulse of a
+    /// contact after its greatest compression over the one until then. With friction it loses
+    /// energy at every impact, which Newton's does not always (Glocker and Pfeiffer, *Multiple
+    /// impacts with friction in rigid multibody systems*, 1995).
+    #[must_use]
+    pub fn restitution_of_impulses(mut self, restitution: S) -> Self {
+        match &mut self.law {
+            Law::Limits(limits) => {
+                (limits.restitution, limits.is_of_impulses) = (restitution, true);
+            }
+            Law::Friction(_) => self.misplaced = Some("restitution_of_impulses"),
+        }
+        self
+    }
+
     /// The rate (rad/s, m/s) of approach below which there is no restitution, so that what bounces
     /// comes to rest instead of bouncing without end. If it is not said, it is 1e-4 of the fastest
     /// approach to this limit in the run so far (0.01 of it in `f32`).
@@ -393,7 +398,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// A higher capacity while it sticks (N m, N).
     #[must_use]
     pub fn stiction(self, capacity: S) -> Self {
-        self.with_friction("stiction", |friction| friction.stiction = Some(capacity))
+        self.friction_setting("stiction", |friction| friction.stiction = Some(capacity))
     }
 
     /// With [`Interaction::stiction`]: the rate `v0` (rad/s, m/s) by which friction falls from that
@@ -403,13 +408,13 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// friction*, 1994).
     #[must_use]
     pub fn stribeck(self, rate: S) -> Self {
-        self.with_friction("stribeck", |friction| friction.stribeck = Some(rate))
+        self.friction_setting("stribeck", |friction| friction.stribeck = Some(rate))
     }
 
     /// Not engaged at the start.
     #[must_use]
     pub fn released(self) -> Self {
-        self.with_friction("released", |friction| friction.is_engaged = false)
+        self.friction_setting("released", |friction| friction.is_engaged = false)
     }
 
     /// A freewheel: its effort is never negative. It bears what would turn the quantity downwards,
@@ -418,16 +423,22 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     #[must_use]
     pub fn one_way(mut self) -> Self {
         match &mut self.law {
-            Law::Friction(friction) if friction.bearing.is_none() => friction.is_one_way = true,
+            Law::Friction(friction) if friction.bearing.is_none() && friction.tangent.is_none() => {
+                friction.is_one_way = true;
+            }
             _ => self.misplaced = Some("one_way"),
         }
         self
     }
 
-    fn with_friction(mut self, setting: &'static str, set: impl FnOnce(&mut Friction<S>)) -> Self {
+    fn friction_setting(
+        mut self,
+        setting: &'static str,
+        set: impl FnOnce(&mut Friction<S>),
+    ) -> Self {
         match &mut self.law {
-            Law::Friction(friction) => set(friction),
-            Law::Limits(_) => self.misplaced = Some(setting),
+            Law::Friction(friction) if friction.tangent.is_none() => set(friction),
+            _ => self.misplaced = Some(setting),
         }
         self
     }

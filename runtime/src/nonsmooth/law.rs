@@ -25,6 +25,8 @@ pub(crate) enum Law<S> {
 pub(crate) struct Limits<S> {
     pub(crate) bounds: [S; 2],
     pub(crate) restitution: S,
+    /// Restitution is of impulses (Poisson), and not of rates (Newton).
+    pub(crate) is_of_impulses: bool,
     /// An approach below this rate, or below a part of the fastest one, has no restitution.
     pub(crate) rest: Rest<S>,
 }
@@ -52,6 +54,17 @@ pub(crate) struct Friction<S> {
     pub(crate) is_one_way: bool,
     /// What bears the load that it goes with.
     pub(crate) bearing: Option<Bearing<S>>,
+    /// The contact whose effort it goes with.
+    pub(crate) tangent: Option<Tangent>,
+}
+
+/// Where friction of a contact stands in a list: behind its contact, in one direction of its plane
+/// or in both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Tangent {
+    /// So many places behind.
+    pub(crate) behind: usize,
+    pub(crate) has_both: bool,
 }
 
 /// A setting that is not acceptable, with its value.
@@ -60,10 +73,7 @@ type Refused<S> = (&'static str, S);
 impl<S: Real> Law<S> {
     /// The mode before a run has found one.
     pub(crate) fn first_mode(&self) -> InteractionMode {
-        match self {
-            Self::Limits(_) => InteractionMode::Free,
-            Self::Friction(_) => InteractionMode::Released,
-        }
+        self.idle_mode()
     }
 
     /// Whether it is engaged at the start. Limits always are.
@@ -88,6 +98,20 @@ impl<S: Real> Law<S> {
     /// What bears the load that it goes with.
     pub(crate) fn bearing(&self) -> Option<&Bearing<S>> {
         self.friction()?.bearing.as_ref()
+    }
+
+    /// Where it stands, as friction of a contact.
+    pub(crate) fn tangent(&self) -> Option<Tangent> {
+        self.friction()?.tangent
+    }
+
+    /// The mode of friction while nothing may rub.
+    pub(crate) fn idle_mode(&self) -> InteractionMode {
+        if self.friction().is_some() && self.tangent().is_none() {
+            InteractionMode::Released
+        } else {
+            InteractionMode::Free
+        }
     }
 
     /// The value at which a mode holds the quantity, where the law has it.
@@ -115,6 +139,7 @@ impl<S: Real> Limits<S> {
         Self {
             bounds,
             restitution: S::zero(),
+            is_of_impulses: false,
             rest: Rest::by_default(),
         }
     }
@@ -194,6 +219,15 @@ impl<S: Real> Friction<S> {
             is_engaged: true,
             is_one_way: false,
             bearing: None,
+            tangent: None,
+        }
+    }
+
+    /// Of a contact.
+    pub(crate) fn of_contact(coefficient: S, tangent: Tangent) -> Self {
+        Self {
+            tangent: Some(tangent),
+            ..Self::of(coefficient)
         }
     }
 
@@ -267,6 +301,10 @@ impl<S: Real> Friction<S> {
     }
 
     fn check(&self) -> Result<(), Refused<S>> {
+        let is_coefficient = self.capacity >= S::zero() && self.capacity.is_finite();
+        if self.tangent.is_some() && !is_coefficient {
+            return Err(("coefficient", self.capacity));
+        }
         if self.capacity < S::zero() || is_nan(self.capacity) {
             return Err(("capacity", self.capacity));
         }

@@ -7,7 +7,7 @@ use crate::math::scalar::Real;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum InteractionMode {
-    /// Between two limits: no effort.
+    /// Between two limits, and friction of a contact that is open: no effort.
     Free,
     /// On the lower limit, which pushes upwards.
     AtLower,
@@ -21,12 +21,19 @@ pub enum InteractionMode {
     SlidingDown,
     /// A brake or a clutch that is not engaged.
     Released,
+    /// Friction of a contact, against its slip.
+    Slipping,
 }
 
 impl InteractionMode {
     /// Whether it keeps the quantity where it is.
     pub(crate) fn holds(self) -> bool {
         matches!(self, Self::AtLower | Self::AtUpper | Self::Sticking)
+    }
+
+    /// Whether its friction takes energy.
+    pub(crate) fn slides(self) -> bool {
+        matches!(self, Self::SlidingUp | Self::SlidingDown | Self::Slipping)
     }
 
     /// The sign of the rate at which it slides.

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use crate::forward::Forward;
 use crate::math::quaternion::{normalised, rotate};
 use crate::math::scalar::{Real, Scalar};
-use crate::math::vec3::{cross, minus, norm, plus, read};
+use crate::math::vec3::{cross, minus, norm, plus, read, times};
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::{Located, Place};
@@ -51,25 +51,70 @@ impl<S: Real, M: Mechanism> Plane<S, M> {
     }
 
     fn new(body: Option<usize>, point: [S; 3], normal: [S; 3]) -> Self {
-        let [x, y, z] = normal;
-        let length = x.fused(x, y.fused(y, z * z)).sqrt();
+        let normal = of_length_1(&normal);
+        // The axis that is farthest from the normal, the first one of several.
+        let [x, y, z] = normal.map(|component| component.abs());
+        let axis = if x <= y && x <= z {
+            [S::one(), S::zero(), S::zero()]
+        } else if y <= z {
+            [S::zero(), S::one(), S::zero()]
+        } else {
+            [S::zero(), S::zero(), S::one()]
+        };
         Self {
             place: PlaceOfPlane {
                 body,
                 point,
-                normal: normal.map(|component| component.quotient(length)),
+                normal,
+                along: of_length_1(&within(&axis, &normal)),
             },
             mechanism: PhantomData,
         }
     }
+
+    /// With the direction along which the first effort of its friction is counted: the part of a
+    /// vector within the plane, along the axes that the normal is given in. The second is along
+    /// the normal times the first. Without a word it is that of the axis which is farthest from the
+    /// normal.
+    #[must_use]
+    pub fn along(mut self, direction: [S; 3]) -> Self {
+        let direction = match self.place.body {
+            Some(body) => rotate(&M::user_axes(body).map(S::constant), &direction),
+            None => direction,
+        };
+        self.place.along = of_length_1(&within(&direction, &self.place.normal));
+        self
+    }
 }
 
-/// The plane in principal axes of its body; global on the ground. The normal has length 1.
+/// A direction of length 1 along the user's axes of a body, in its principal axes; global on the
+/// ground.
+pub(super) fn direction_on<S: Real, M: Mechanism>(body: Option<usize>, along: &[S; 3]) -> [S; 3] {
+    let along = of_length_1(along);
+    match body {
+        Some(body) => rotate(&M::user_axes(body).map(S::constant), &along),
+        None => along,
+    }
+}
+
+fn of_length_1<S: Real>(vector: &[S; 3]) -> [S; 3] {
+    let length = norm(vector);
+    vector.map(|component| component.quotient(length))
+}
+
+/// The part of a vector at right angles to a normal of length 1.
+fn within<S: Real>(vector: &[S; 3], normal: &[S; 3]) -> [S; 3] {
+    minus(vector, &times(normal, dot(vector, normal)))
+}
+
+/// The plane in principal axes of its body; global on the ground. The normal has length 1, and so
+/// has a direction within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PlaceOfPlane<S> {
     pub(crate) body: Option<usize>,
-    point: [S; 3],
-    normal: [S; 3],
+    pub(super) point: [S; 3],
+    pub(super) normal: [S; 3],
+    pub(super) along: [S; 3],
 }
 
 impl<S> PlaceOfPlane<S> {
@@ -79,6 +124,7 @@ impl<S> PlaceOfPlane<S> {
             body: self.body,
             point: [(); 3],
             normal: [(); 3],
+            along: [(); 3],
         }
     }
 }
@@ -89,6 +135,7 @@ impl<S: Scalar> PlaceOfPlane<S> {
             body: self.body,
             point: self.point.map(Forward::fixed),
             normal: self.normal.map(Forward::fixed),
+            along: self.along.map(Forward::fixed),
         }
     }
 }
@@ -99,11 +146,16 @@ impl<S: Real> PlaceOfPlane<S> {
         norm(&self.point)
     }
 
-    /// Whether there is a normal.
-    pub(crate) fn is_finite(&self) -> bool {
-        let [a, b, c] = self.point;
-        let [x, y, z] = self.normal;
-        [a, b, c, x, y, z].iter().all(|number| number.is_finite())
+    /// What of it is not finite, by its setting: a normal or a direction of no length is none.
+    pub(crate) fn check(&self) -> Result<(), &'static str> {
+        let is_finite = |vector: &[S; 3]| vector.iter().all(|number| number.is_finite());
+        if !is_finite(&self.point) || !is_finite(&self.normal) {
+            return Err("normal");
+        }
+        if !is_finite(&self.along) {
+            return Err("along");
+        }
+        Ok(())
     }
 }
 
@@ -154,7 +206,7 @@ type Moving<S> = [[S; 3]; 2];
 
 impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
     /// A vector that is fixed in principal axes of a body.
-    fn turned(&self, body: usize, vector: &[S; 3]) -> Moving<S> {
+    pub(super) fn turned(&self, body: usize, vector: &[S; 3]) -> Moving<S> {
         let Some((info, place)) = BodyHandle::<M>::new(body).orientation() else {
             return [*vector, [S::zero(); 3]];
         };
@@ -164,8 +216,20 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
         [vector, cross(&spin, &vector)]
     }
 
+    /// The angular velocity (rad/s) of a body, global; zero of a particle.
+    pub(super) fn spin(&self, body: usize) -> [S; 3] {
+        let Some((info, place)) = BodyHandle::<M>::new(body).orientation() else {
+            return [S::zero(); 3];
+        };
+        let p = normalised(&read(self.bodies.coordinates().as_slice(), place));
+        rotate(
+            &p,
+            &read(self.bodies.velocities().as_slice(), info.velocity + 3),
+        )
+    }
+
     /// A point from the centre of mass of a body; global on the ground.
-    fn point(&self, body: Option<usize>, arm: &[S; 3]) -> Moving<S> {
+    pub(super) fn point(&self, body: Option<usize>, arm: &[S; 3]) -> Moving<S> {
         let Some(body) = body else {
             return [*arm, [S::zero(); 3]];
         };
@@ -177,23 +241,8 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
         [plus(&centre, &arm), plus(&moving, &turning)]
     }
 
-    fn at(&self, at: At) -> Moving<S> {
+    pub(super) fn at(&self, at: At) -> Moving<S> {
         self.point(at.body::<M>(), &at.arm::<S, M>(self.constants))
-    }
-
-    /// The distance (m) of a point from a plane, positive on the free side, and its rate.
-    pub(crate) fn gap(&self, at: At, plane: &PlaceOfPlane<S>) -> [S; 2] {
-        let [point, velocity] = self.at(at);
-        let [base, base_velocity] = self.point(plane.body, &plane.point);
-        let [normal, turning] = match plane.body {
-            Some(body) => self.turned(body, &plane.normal),
-            None => [plane.normal, [S::zero(); 3]],
-        };
-        let (way, faster) = (minus(&point, &base), minus(&velocity, &base_velocity));
-        [
-            dot(&normal, &way),
-            dot(&normal, &faster) + dot(&turning, &way),
-        ]
     }
 
     /// The distance (m) of two points, and its rate; no rate where they meet.
@@ -207,7 +256,7 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
     }
 }
 
-fn dot<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> S {
+pub(super) fn dot<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> S {
     let pairs = a.iter().zip(b);
     pairs.fold(S::zero(), |sum, (&a, &b)| a.fused(b, sum))
 }

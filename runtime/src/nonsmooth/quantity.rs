@@ -10,6 +10,7 @@ use crate::mechanism::report::BodyKind;
 use crate::mechanism::turns;
 use crate::nonsmooth::place::{At, PlaceOfPlane};
 use crate::nonsmooth::scene::Scene;
+use crate::nonsmooth::shape::{Direction, Shape};
 use crate::state::vector::{Array, StateParts};
 
 /// The angle (rad) or the displacement (m) of a joint, by [`JointHandle::angle`] and
@@ -81,8 +82,10 @@ pub(crate) enum Quantity<S> {
     Joint(JointReading),
     /// The first less so many times the second.
     Difference(JointReading, JointReading, S),
-    /// The distance of a point from a plane.
-    Gap(At, PlaceOfPlane<S>),
+    /// The distance of a shape about a point from a plane.
+    Gap(At, PlaceOfPlane<S>, Shape<S>),
+    /// What touches there, along a direction of the plane: a rate, and no value.
+    Slip(At, PlaceOfPlane<S>, Shape<S>, Direction),
     /// The distance of two points.
     Distance(At, At),
 }
@@ -93,7 +96,15 @@ impl<S> Quantity<S> {
         match self {
             Self::Joint(reading) => Quantity::Joint(*reading),
             Self::Difference(first, second, _) => Quantity::Difference(*first, *second, ()),
-            Self::Gap(at, plane) => Quantity::Gap(*at, plane.without_numbers()),
+            Self::Gap(at, plane, shape) => {
+                Quantity::Gap(*at, plane.without_numbers(), shape.without_numbers())
+            }
+            Self::Slip(at, plane, shape, direction) => Quantity::Slip(
+                *at,
+                plane.without_numbers(),
+                shape.without_numbers(),
+                *direction,
+            ),
             Self::Distance(a, b) => Quantity::Distance(*a, *b),
         }
     }
@@ -107,7 +118,10 @@ impl<S: Scalar> Quantity<S> {
             Self::Difference(first, second, ratio) => {
                 Quantity::Difference(first, second, Forward::fixed(ratio))
             }
-            Self::Gap(at, plane) => Quantity::Gap(at, plane.lifted()),
+            Self::Gap(at, plane, shape) => Quantity::Gap(at, plane.lifted(), shape.lifted()),
+            Self::Slip(at, plane, shape, direction) => {
+                Quantity::Slip(at, plane.lifted(), shape.lifted(), direction)
+            }
             Self::Distance(a, b) => Quantity::Distance(a, b),
         }
     }
@@ -122,7 +136,9 @@ impl<S: Scalar> Quantity<S> {
         match self {
             Self::Joint(reading) => of_joint(reading),
             Self::Difference(first, second, _) => of_joint(first) || of_joint(second),
-            Self::Gap(at, plane) => body_of(at) || plane.body == Some(body),
+            Self::Gap(at, plane, _) | Self::Slip(at, plane, ..) => {
+                body_of(at) || plane.body == Some(body)
+            }
             Self::Distance(a, b) => body_of(a) || body_of(b),
         }
     }
@@ -134,23 +150,30 @@ impl<S: Scalar> Quantity<S> {
                 let info = M::REPORT.joints.get(reading.joint());
                 info.map_or("", |info| info.name)
             }
-            Self::Gap(at, _) | Self::Distance(at, _) => at.name::<M>(),
+            Self::Gap(at, ..) | Self::Slip(at, ..) | Self::Distance(at, _) => at.name::<M>(),
         }
     }
 
-    /// The value (rad, m); not that of a difference, which no law asks for.
+    /// The value (rad, m); not that of a difference or of a slip, which no law asks for.
     pub(crate) fn value<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> S {
         match *self {
             Self::Joint(reading) => scene.value(reading),
-            Self::Difference(..) => S::zero(),
-            Self::Gap(at, ref plane) => {
-                let [value, _] = scene.gap(at, plane);
-                value
-            }
+            Self::Difference(..) | Self::Slip(..) => S::zero(),
+            Self::Gap(at, ref plane, ref shape) => scene.touch(at, plane, shape).gap,
             Self::Distance(a, b) => {
                 let [value, _] = scene.distance(a, b);
                 value
             }
+        }
+    }
+
+    /// The slip (m/s) at a contact along both directions of its plane; zero of what is none.
+    pub(super) fn slip<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> [S; 2] {
+        match *self {
+            Self::Gap(at, ref plane, ref shape) | Self::Slip(at, ref plane, ref shape, _) => {
+                scene.touch(at, plane, shape).slip
+            }
+            _ => [S::zero(); 2],
         }
     }
 
@@ -161,7 +184,7 @@ impl<S: Scalar> Quantity<S> {
 
     /// Whether it has a value that a law asks for, or a rate alone.
     pub(crate) fn has_value(&self) -> bool {
-        !matches!(self, Self::Difference(..))
+        !matches!(self, Self::Difference(..) | Self::Slip(..))
     }
 
     /// Its rate.
@@ -171,9 +194,13 @@ impl<S: Scalar> Quantity<S> {
             Self::Difference(first, second, ratio) => {
                 scene.rate(first) - ratio * scene.rate(second)
             }
-            Self::Gap(at, ref plane) => {
-                let [_, rate] = scene.gap(at, plane);
-                rate
+            Self::Gap(at, ref plane, ref shape) => scene.touch(at, plane, shape).rate,
+            Self::Slip(at, ref plane, ref shape, direction) => {
+                let [along, across] = scene.touch(at, plane, shape).slip;
+                match direction {
+                    Direction::Along => along,
+                    Direction::Across => across,
+                }
             }
             Self::Distance(a, b) => {
                 let [_, rate] = scene.distance(a, b);

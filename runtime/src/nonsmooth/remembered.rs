@@ -10,7 +10,7 @@ use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::status::{Impact, Status, Tracked};
 
 /// In the order in which checkpoints count them.
-const MODES: [InteractionMode; 7] = [
+const MODES: [InteractionMode; 8] = [
     InteractionMode::Free,
     InteractionMode::AtLower,
     InteractionMode::AtUpper,
@@ -18,6 +18,7 @@ const MODES: [InteractionMode; 7] = [
     InteractionMode::SlidingUp,
     InteractionMode::SlidingDown,
     InteractionMode::Released,
+    InteractionMode::Slipping,
 ];
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
@@ -41,7 +42,11 @@ impl<S: Real> Status<S> {
         memory.flag(&mut self.is_found);
         memory.flag(&mut self.rests);
         memory.flag(&mut self.is_saturated);
+        let [along, across] = &mut self.slip;
         let numbers = [
+            along,
+            across,
+            &mut self.exerted.size,
             &mut self.held,
             &mut self.exerted.effort,
             &mut self.share,

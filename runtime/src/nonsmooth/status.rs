@@ -5,7 +5,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::bearing::Bearing;
 use crate::nonsmooth::interaction::Interaction;
-use crate::nonsmooth::law::{Friction, Law};
+use crate::nonsmooth::law::{Friction, Law, Tangent};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
 
@@ -44,6 +44,8 @@ pub struct Exerted<S> {
     pub(crate) effort: S,
     /// The largest effort (N m, N) while it sticks; zero where there is none.
     pub(crate) capacity: S,
+    /// The size (N) of the friction of a contact in both directions together.
+    pub(crate) size: S,
 }
 
 /// An interaction in a run.
@@ -57,6 +59,11 @@ pub(crate) struct Status<S> {
     pub(crate) factor: S,
     /// The value that is held.
     pub(crate) held: S,
+    /// The direction of the slip at a contact, of length 1, where its mode began or was last
+    /// found to go on.
+    pub(crate) slip: [S; 2],
+    /// The same at the last reading.
+    pub(crate) last_slip: [S; 2],
     /// What it exerted at the last look into a step, or where its mode began.
     pub(crate) exerted: Exerted<S>,
     /// The effort with which the mode began.
@@ -135,6 +142,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         Some(friction.scaled(self.status.factor))
     }
 
+    /// Where it stands, as friction of a contact.
+    pub(crate) fn tangent(&self) -> Option<Tangent> {
+        self.interaction.law.tangent()
+    }
+
     /// The mode.
     pub(crate) fn mode(&self) -> InteractionMode {
         self.status.mode
@@ -157,7 +169,23 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             return never;
         }
         let Interaction { quantity, law, .. } = &self.interaction;
-        let Exerted { effort, capacity } = self.status.exerted;
+        let Exerted {
+            effort,
+            capacity,
+            size,
+        } = self.status.exerted;
+        if let Some(tangent) = law.tangent() {
+            // Both directions have one mode, which the first one tells.
+            return match self.mode() {
+                _ if tangent.behind > 1 => never,
+                InteractionMode::Sticking => capacity - size,
+                InteractionMode::Slipping => {
+                    let ([x, y], [along, across]) = (self.status.slip, quantity.slip(scene));
+                    x.fused(along, y * across)
+                }
+                _ => never,
+            };
+        }
         match (self.mode(), law) {
             (InteractionMode::Free, Law::Limits(limits)) => limits.gap(quantity.value(scene)).0,
             (InteractionMode::AtLower, _) => effort,
@@ -185,6 +213,7 @@ impl<S: Real> Exerted<S> {
         Self {
             effort: S::zero(),
             capacity: S::zero(),
+            size: S::zero(),
         }
     }
 }
@@ -197,6 +226,8 @@ impl<S: Real> Status<S> {
             is_asked: false,
             factor: S::one(),
             held: S::zero(),
+            slip: [S::zero(); 2],
+            last_slip: [S::zero(); 2],
             exerted: Exerted::nothing(),
             share: S::zero(),
             since: S::zero(),
@@ -285,6 +316,9 @@ impl<S: Real> Status<S> {
 
     /// Goes on with the last reading, by which the mode does not end.
     pub(crate) fn go_on(&mut self) {
+        if self.mode == InteractionMode::Slipping {
+            self.slip = self.last_slip;
+        }
         self.has_left |= self.reading > self.band;
         if self.mode == InteractionMode::Free && self.reading.is_finite() {
             self.farthest = self.farthest.max(self.reading);

@@ -7,12 +7,20 @@ use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors};
 use crate::nonsmooth::columns::{Columns, Setting};
+use crate::nonsmooth::cone_problem::length;
+use crate::nonsmooth::cones::{self, are_rough, tangents_of};
 use crate::nonsmooth::law::{Friction, Limits, pushes};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{AT_REST, OF_TIME, ROUND_OFF, part};
 use crate::nonsmooth::status::{Impact, Next, Status, Tracked};
 use crate::state::vector::{Array, StateParts as _};
+
+/// Slip that a step has led to less than this part of what it is the sum of has ended.
+const ENDED: f64 = 1e-9;
+
+/// Energy that impulses bring, of what they take and bring in all, beyond which it is no round-off.
+const GAINS: f64 = 1e-9;
 
 /// How a quantity moves at an instant.
 pub(super) struct Motion<S> {
@@ -114,6 +122,8 @@ struct Struck<S> {
     /// It takes part in what has an impulse of its own.
     is_struck: bool,
     impulse: S,
+    /// Poisson's restitution of its impulse.
+    restitution: S,
     /// It is at rest, to round-off.
     rests: bool,
 }
@@ -128,6 +138,7 @@ impl<S: Real> Struck<S> {
             is_engaged: tracked.friction().is_some() && tracked.status.is_engaged,
             is_struck: false,
             impulse: S::zero(),
+            restitution: S::zero(),
             rests: false,
         }
     }
@@ -161,6 +172,13 @@ where
             all[index].at_limit = limit.map_err(|fault| driven(setting, list, index, fault))?;
         }
     }
+    // Friction of a contact may act where that is closed.
+    for (index, tracked) in list.iter().enumerate() {
+        if let Some(contact) = tracked.contact(index) {
+            let contact = all.get(contact).and_then(|contact| contact.at_limit);
+            all[index].is_engaged = contact.is_some();
+        }
+    }
     let chosen = all.each_ref().map(Struck::is_chosen);
     let columns = Columns::of(setting, list, &chosen)?;
     let before = all.each_ref().map(|one| one.before);
@@ -168,12 +186,18 @@ where
     for (index, tracked) in list.iter_mut().enumerate() {
         // Friction that is found has no rate, whether it stuck or slid: that takes no impulse.
         let is_found = tracked.status.is_found && tracked.friction().is_some();
-        let collides = tracked.collides(&all[index], &mut problem, index);
+        let collides = tracked.collides(&mut all[index], &mut problem, index);
         all[index].is_struck = collides && (is_moved || !is_found);
     }
     let is_struck = all.iter().any(|one| one.is_struck);
     if is_struck {
-        let impulses = solved(&problem, setting, list)?.efforts;
+        let impulses = if are_rough(list) {
+            let restitutions = all.each_ref().map(|one| one.restitution);
+            let signs = all.each_ref().map(|one| one.at_limit);
+            cones::impulses(setting, list, &problem, (signs, restitutions))?
+        } else {
+            solved(&problem, setting, list)?.efforts
+        };
         for (index, row) in columns.delassus.iter().enumerate() {
             let (one, terms) = (&mut all[index], row.iter().zip(&impulses));
             one.impulse = impulses[index];
@@ -182,7 +206,7 @@ where
         for (tracked, one) in list.iter().zip(&all) {
             tracked.refuse_to_go_on(setting, one)?;
         }
-        report(setting, list, &all, &columns.delassus);
+        report(setting, list, &all, &columns.delassus)?;
     }
     let hops = if is_struck {
         hops(list, &all, &columns.delassus, setting.saddle.time)
@@ -198,6 +222,7 @@ where
         let rests = is_slow || was_at_rest && status.mode != InteractionMode::Free;
         one.rests = one.is_chosen() && (rests || hops[index]);
     }
+    stick(list, &mut all);
     let rests = all.each_ref().map(|one| one.rests);
     let last = Factors::of(&columns.delassus, &rests);
     let last = last.solve(&all.each_ref().map(|one| one.motion.rate));
@@ -209,6 +234,40 @@ where
         tracked.enter_next(next.ok_or_else(|| no_mode(setting, tracked))?);
     }
     Ok(())
+}
+
+/// Friction of contacts rests in both directions, where its contact does.
+fn stick<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    all: &mut [Struck<S>; K],
+) {
+    for contact in 0..K {
+        let [Some(first), second] = tangents_of(list, contact) else {
+            continue;
+        };
+        let closed = all[contact].rests;
+        let [mut rests, mut found] = [true, false];
+        let (mut slip, mut size) = ([S::zero(); 2], S::zero());
+        for (place, index) in [Some(first), second].into_iter().enumerate() {
+            if let (Some(one), Some(tracked)) = (
+                index.and_then(|index| all.get(index)),
+                index.and_then(|index| list.get(index)),
+            ) {
+                rests &= one.rests;
+                found |= tracked.status.is_found;
+                slip[usize::from(place > 0)] = one.motion.rate;
+                size = size.max(one.motion.size);
+            }
+        }
+        // Slip that turns about passes its zero at the distance that a step resolves.
+        let ended = found && length(slip) <= S::constant(ENDED) * size;
+        for index in [Some(first), second].into_iter().flatten() {
+            if let Some(one) = all.get_mut(index) {
+                one.rests = closed && (rests || ended);
+                one.is_engaged &= closed;
+            }
+        }
+    }
 }
 
 /// Which quantities an impulse elsewhere throws off their limits, but so slowly that they rest: at
@@ -326,7 +385,9 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// The rate that engaged friction ends within the digits of an instant.
     fn unresolved(&self, time: S, compliance: S) -> S {
         let capacity = match self.friction() {
-            Some(friction) if friction.bearing.is_some() => self.status.exerted.capacity,
+            Some(friction) if friction.bearing.is_some() || friction.tangent.is_some() => {
+                self.status.exerted.capacity
+            }
             Some(friction) if friction.impulses().is_none() => friction.capacity,
             _ => return S::zero(),
         };
@@ -337,7 +398,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// is one that is not zero.
     fn collides<const K: usize>(
         &mut self,
-        one: &Struck<S>,
+        one: &mut Struck<S>,
         problem: &mut BoxProblem<S, K>,
         index: usize,
     ) -> bool {
@@ -348,7 +409,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             let is_struck = approach > motion.none();
             if is_struck {
                 let restitution = self.status.restitution(limits, approach);
-                problem.offset[index] = (S::one() + restitution) * motion.rate;
+                if limits.is_of_impulses {
+                    one.restitution = restitution;
+                } else {
+                    problem.offset[index] = (S::one() + restitution) * motion.rate;
+                }
             }
             (pushes(sign), is_struck)
         } else if let (true, Some(impulses)) =
@@ -402,16 +467,27 @@ fn report<S, M, F, C, const K: usize>(
     list: &mut [Tracked<S, M>; K],
     all: &[Struck<S>; K],
     matrix: &[[S; K]; K],
-) where
+) -> Result<(), Fault>
+where
     S: Real,
     M: Mechanism,
     F: Formulation<S>,
     C: Coordinates<M>,
 {
     let half = S::constant(0.5);
-    let mut lost = S::zero();
+    let (mut lost, mut terms) = (S::zero(), S::zero());
     for one in all {
-        lost = lost - half * one.impulse * (one.before + one.motion.rate);
+        let part = half * one.impulse * (one.before + one.motion.rate);
+        (lost, terms) = (lost - part, terms + part.abs());
+    }
+    if are_rough(list) && lost < -(S::constant(GAINS) * terms) {
+        let gains = all.iter().position(|one| one.impulse != S::zero());
+        let first = gains.and_then(|index| list.get(index));
+        return Err(Fault::Mode(ModeFault::GainsEnergy {
+            joint: first.map_or("", |first| first.interaction.name()),
+            gained: -lost.to_f64(),
+            time: setting.saddle.time.to_f64(),
+        }));
     }
     for (index, (tracked, one)) in list.iter_mut().zip(all).enumerate() {
         let is_felt = (matrix[index][index] * one.impulse).abs() > one.motion.none();
@@ -425,6 +501,7 @@ fn report<S, M, F, C, const K: usize>(
             tracked.status.impact = Some(impact);
         }
     }
+    Ok(())
 }
 
 /// The solution of a problem, or the fault where there is none.

@@ -71,6 +71,9 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
             bodies,
         };
         let value = tracked.reading(&scene);
+        if let Some(status) = &mut self.status {
+            status.last_slip = tracked.direction_of_slip(&scene);
+        }
         if value.to_f64().is_nan() {
             return Err(Fault::Step(StepFault::EventNotANumber {
                 event: tracked.interaction.name(),
@@ -91,6 +94,9 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
     fn keep(&mut self, equations: &mut dyn Evaluate<S, M>, value: S, _root: Option<S>) {
         if let Some(tracked) = equations.interactions_mut().get_mut(self.number) {
             tracked.status.reading = value;
+            if let Some(status) = &self.status {
+                tracked.status.last_slip = status.last_slip;
+            }
         }
     }
 

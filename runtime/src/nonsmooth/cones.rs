@@ -1,0 +1,428 @@
+//! Contacts with friction: which efforts they have, and in which modes they are.
+//!
+//! A contact stands in a list with its friction behind it, along one direction of its plane or
+//! both. Where such a list is chosen for, `cone_problem.rs` takes the place of `box_problem.rs`.
+
+use crate::error::{Fault, ModeFault, StepFault};
+use crate::formulation::{Formulation, Solution};
+use crate::math::scalar::Real;
+use crate::mechanism::coordinates::Coordinates;
+use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::box_problem::BoxProblem;
+use crate::nonsmooth::columns::{Columns, Setting};
+use crate::nonsmooth::cone_problem::{
+    ConeProblem, ConeSolution, NoSolution, Outcome, Role, Rough, length,
+};
+use crate::nonsmooth::efforts::Show;
+use crate::nonsmooth::law::Friction;
+use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::scene::Scene;
+use crate::nonsmooth::sizes::{AT_BOUND, AT_REST, ROUND_OFF, part};
+use crate::nonsmooth::status::{Exerted, Next, Tracked};
+use crate::nonsmooth::switch::Motion;
+use crate::nonsmooth::tied::{Tied, at, residuals};
+
+/// What was found at the end of its sticking slips, to this part of what it can bear.
+const SLIPS: f64 = 1e-10;
+
+/// What is as near to what it can bear as this is found there together with another.
+const TOGETHER: f64 = 1e-9;
+
+/// Rounds of correction, as of other efforts that hold.
+const ROUNDS: usize = 2;
+
+/// Whether the cone decides.
+pub(super) fn are_rough<S: Real, M: Mechanism>(list: &[Tracked<S, M>]) -> bool {
+    list.iter().any(|tracked| {
+        let limits = tracked.interaction.law.limits();
+        tracked.tangent().is_some() || limits.is_some_and(|limits| limits.is_of_impulses)
+    })
+}
+
+/// The places of the friction of a contact.
+pub(super) fn tangents_of<S: Real, M: Mechanism>(
+    list: &[Tracked<S, M>],
+    contact: usize,
+) -> [Option<usize>; 2] {
+    [1, 2].map(|behind| {
+        let index = contact.checked_add(behind)?;
+        let tangent = list.get(index)?.tangent()?;
+        (tangent.behind == behind).then_some(index)
+    })
+}
+
+impl<S: Real, M: Mechanism> Tracked<S, M> {
+    /// The contact of friction that stands at an index.
+    pub(super) fn contact(&self, index: usize) -> Option<usize> {
+        index.checked_sub(self.tangent()?.behind)
+    }
+
+    /// The slip (m/s) at its contact, along the directions in which that has friction.
+    fn slip(&self, scene: &Scene<'_, S, M>) -> [S; 2] {
+        let [along, across] = self.interaction.quantity.slip(scene);
+        let has_both = self.tangent().is_some_and(|tangent| tangent.has_both);
+        [along, if has_both { across } else { S::zero() }]
+    }
+
+    /// The direction of the slip at its contact. Beyond its zero, as a step that ends its mode
+    /// looks there, it is the one until then: so the friction of a step goes on smoothly.
+    pub(crate) fn direction_of_slip(&self, scene: &Scene<'_, S, M>) -> [S; 2] {
+        let known = self.status.slip;
+        if self.mode() != InteractionMode::Slipping {
+            return known;
+        }
+        let [along, across] = self.slip(scene);
+        let size = length([along, across]);
+        let none = part::<S>(AT_REST, ROUND_OFF) * self.status.largest;
+        if size <= none.max(S::smallest()) {
+            return known;
+        }
+        let [x, y] = known;
+        let is_beyond = x.fused(along, y * across) < S::zero();
+        let divisor = if is_beyond { -size } else { size };
+        [along.quotient(divisor), across.quotient(divisor)]
+    }
+}
+
+/// The friction of a contact, by the modes that may follow.
+fn rough<S: Real, M: Mechanism>(
+    list: &[Tracked<S, M>],
+    contact: usize,
+    slips: Option<&[[S; 2]]>,
+) -> Option<Rough<S>> {
+    let tangents = tangents_of(list, contact);
+    let place = tangents[0]?;
+    let first = list.get(place)?;
+    let coefficient = first.friction()?.capacity;
+    let less = part::<S>(SLIPS, ROUND_OFF);
+    // What bears a load together is at its end together.
+    let Exerted { capacity, size, .. } = first.status.exerted;
+    let is_near = size >= capacity * (S::one() - part::<S>(TOGETHER, ROUND_OFF));
+    let stuck = first.status.before == InteractionMode::Sticking;
+    let at_rest = if first.status.slips() || stuck && is_near {
+        coefficient * (S::one() - less)
+    } else {
+        coefficient
+    };
+    let moves = matches!(first.status.next, Next::Moving(_));
+    let slip = slips.and_then(|slips| slips.get(place));
+    Some(Rough {
+        coefficient,
+        at_rest,
+        tangents,
+        slip: slip.filter(|_| moves).copied(),
+    })
+}
+
+/// What may act at every unknown, where accelerations are looked for.
+fn roles<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    motions: &[Motion<S>; K],
+    slips: &[[S; 2]; K],
+) -> [Role<S>; K] {
+    core::array::from_fn(|index| {
+        let tracked = &list[index];
+        if tracked.tangent().is_some() {
+            return Role::Tangent;
+        }
+        let (friction, next) = (tracked.friction(), tracked.status.next);
+        match (next, friction) {
+            (Next::On(sign), _) => Role::Pushes {
+                sign,
+                least: S::zero(),
+                rough: rough(list, index, Some(slips)).filter(|_| sign > S::zero()),
+            },
+            (Next::Moving(sign), Some(friction)) => {
+                Role::Given(friction.effort(sign, motions[index].rate))
+            }
+            (Next::Still, Some(friction)) if tracked.is_overrun() => {
+                Role::Given(friction.effort(S::one(), S::zero()))
+            }
+            (Next::Still, Some(friction)) => at_rest(&friction, tracked.status.slips()),
+            _ => Role::Given(S::zero()),
+        }
+    })
+}
+
+fn at_rest<S: Real>(friction: &Friction<S>, slips: bool) -> Role<S> {
+    let (zero, one) = (S::zero(), S::one());
+    let rest = if slips {
+        one - part::<S>(SLIPS, ROUND_OFF)
+    } else {
+        one
+    };
+    Role::Within {
+        bounds: friction.bounds().map(|bound| rest * bound),
+        sliding: [one, -one].map(|sign| friction.effort(sign, zero)),
+    }
+}
+
+/// The solution, or the fault where there is none.
+pub(super) fn solved<S, M, F, C, const K: usize>(
+    problem: &ConeProblem<S, K>,
+    setting: &Setting<'_, S, M, F, C>,
+    list: &[Tracked<S, M>; K],
+) -> Result<ConeSolution<S, K>, Fault>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    let finite = problem.matrix.iter().flatten().chain(&problem.offset);
+    if !finite.into_iter().all(|number| number.is_finite()) {
+        return Err(Fault::Step(StepFault::StateNotFinite));
+    }
+    problem.solved().map_err(|why| {
+        let is_rough = |role: &Role<S>| matches!(role, Role::Pushes { rough: Some(_), .. });
+        let place = problem.roles.iter().position(is_rough);
+        let first = place.and_then(|index| list.get(index)).or(list.first());
+        let joint = first.map_or("", |first| first.interaction.name());
+        let time = setting.saddle.time.to_f64();
+        Fault::Mode(match why {
+            NoSolution::TooMany => ModeFault::TooManyContacts { joint, time },
+            NoSolution::None | NoSolution::Several => ModeFault::NoUniqueFriction { joint, time },
+        })
+    })
+}
+
+/// The impulses of an instant, by Newton's restitution, which the offset has already, or by
+/// Poisson's: those after the greatest compression are at least so many times those until then.
+pub(super) fn impulses<S, M, F, C, const K: usize>(
+    setting: &Setting<'_, S, M, F, C>,
+    list: &[Tracked<S, M>; K],
+    within: &BoxProblem<S, K>,
+    (signs, restitutions): ([Option<S>; K], [S; K]),
+) -> Result<[S; K], Fault>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    let mut least = [S::zero(); K];
+    let role = |index: usize, least: S| match signs[index] {
+        Some(sign) => Role::Pushes {
+            sign,
+            least,
+            rough: rough(list, index, None).filter(|_| sign > S::zero()),
+        },
+        None if list[index].tangent().is_some() => Role::Tangent,
+        None => {
+            let bounds = [within.lower[index], within.upper[index]];
+            Role::Within {
+                bounds,
+                sliding: bounds,
+            }
+        }
+    };
+    let mut problem = ConeProblem {
+        matrix: within.matrix,
+        offset: within.offset,
+        roles: core::array::from_fn(|index| role(index, S::zero())),
+    };
+    let mut total = solved(&problem, setting, list)?.efforts;
+    for (least, (&restitution, &impulse)) in least.iter_mut().zip(restitutions.iter().zip(&total)) {
+        *least = restitution * impulse.abs();
+    }
+    if least.iter().any(|&least| least > S::zero()) {
+        problem.offset = residuals(&problem.matrix, &problem.offset, &total);
+        problem.roles = core::array::from_fn(|index| role(index, least[index]));
+        let expansion = solved(&problem, setting, list)?.efforts;
+        for (sum, impulse) in total.iter_mut().zip(expansion) {
+            *sum = *sum + impulse;
+        }
+    }
+    Ok(total)
+}
+
+/// The modes that follow, after impulses, from the solution without efforts of interactions.
+pub(super) fn modes<S, M, F, C, const K: usize>(
+    setting: &Setting<'_, S, M, F, C>,
+    list: &mut [Tracked<S, M>; K],
+    free: &Solution<S, M, C>,
+) -> Result<(), Fault>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    let chosen = list
+        .each_ref()
+        .map(|tracked| !matches!(tracked.status.next, Next::Without));
+    let columns = Columns::of(setting, list, &chosen)?;
+    let offset = setting.accelerations(list, &free.accelerations);
+    let motions: [Motion<S>; K] =
+        setting.here(|scene| list.each_mut().map(|tracked| Motion::of(tracked, scene)));
+    let slips = setting.here(|scene| {
+        list.each_ref().map(|tracked| {
+            let [x, y] = tracked.slip(scene);
+            let size = length([x, y]).max(S::smallest());
+            [x.quotient(size), y.quotient(size)]
+        })
+    });
+    let problem = ConeProblem {
+        matrix: columns.delassus,
+        offset,
+        roles: roles(list, &motions, &slips),
+    };
+    let solution = solved(&problem, setting, list)?;
+    let sizes = exerted(list, &solution.efforts);
+    for index in 0..K {
+        let diagonal = columns.delassus[index][index];
+        let alone = if diagonal > S::zero() {
+            offset[index].abs().quotient(diagonal)
+        } else {
+            S::zero()
+        };
+        let bears = |index: usize, alone: S| {
+            let effort = at(&solution.efforts, index);
+            effort.abs() > part::<S>(AT_BOUND, ROUND_OFF) * alone
+        };
+        let tracked = &mut list[index];
+        let mode = match (solution.outcomes[index], tracked.status.next) {
+            (Outcome::Holds, Next::On(sign)) if bears(index, alone) => {
+                if sign > S::zero() {
+                    InteractionMode::AtLower
+                } else {
+                    InteractionMode::AtUpper
+                }
+            }
+            (_, Next::On(_)) => InteractionMode::Free,
+            (Outcome::Holds, _) => InteractionMode::Sticking,
+            (Outcome::Slips(slip), _) => {
+                tracked.status.slip = slip;
+                InteractionMode::Slipping
+            }
+            (Outcome::Slides(sign), _) => slides(sign),
+            (Outcome::Given, Next::Moving(sign)) if tracked.tangent().is_none() => slides(sign),
+            (Outcome::Given, Next::Still) if tracked.is_overrun() => slides(S::one()),
+            _ => tracked.interaction.law.idle_mode(),
+        };
+        tracked.status.is_saturated = false;
+        tracked.status.rests = false;
+        tracked.status.exerted = sizes[index];
+        let efforts = [solution.efforts[index], alone, alone];
+        setting.here(|scene| tracked.enter(mode, scene, efforts, &motions[index]));
+    }
+    // What bears nothing does not rub.
+    for index in 0..K {
+        let contact = list[index].contact(index);
+        let is_open = contact
+            .and_then(|index| list.get(index))
+            .is_some_and(|tracked| tracked.mode() == InteractionMode::Free);
+        if is_open {
+            list[index].status.mode = InteractionMode::Free;
+        }
+    }
+    Ok(())
+}
+
+/// The contact and the coefficient of all friction that sticks.
+fn sticking<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+) -> [Option<(usize, S)>; K] {
+    core::array::from_fn(|index| {
+        let contact = list[index].contact(index)?;
+        let first = tangents_of(list, contact)[0].and_then(|first| list.get(first))?;
+        let sticks = list[index].mode() == InteractionMode::Sticking;
+        sticks.then_some((contact, first.friction()?.capacity))
+    })
+}
+
+fn slides<S: Real>(sign: S) -> InteractionMode {
+    if sign > S::zero() {
+        InteractionMode::SlidingUp
+    } else {
+        InteractionMode::SlidingDown
+    }
+}
+
+/// What all exert by their efforts. Of friction of a contact the capacity is `mu N`.
+fn exerted<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    efforts: &[S; K],
+) -> [Exerted<S>; K] {
+    core::array::from_fn(|index| {
+        let (tracked, effort) = (&list[index], efforts[index]);
+        let Some(contact) = tracked.contact(index) else {
+            return Exerted {
+                effort,
+                capacity: tracked.capacity(None),
+                size: S::zero(),
+            };
+        };
+        let places = tangents_of(list, contact);
+        let first = places[0].and_then(|index| list.get(index));
+        let coefficient = first.and_then(|first| Some(first.friction()?.capacity));
+        let read = |index: Option<usize>| index.map_or(S::zero(), |index| at(efforts, index));
+        Exerted {
+            effort,
+            capacity: coefficient.unwrap_or(S::zero()) * at(efforts, contact),
+            size: length(places.map(read)),
+        }
+    })
+}
+
+/// Adds the efforts that hold, and those of what slips on contacts, to a solution, which has those
+/// of other sliding friction. Shows what all of them exert where that is wanted.
+pub(super) fn complete<S, M, F, C, const K: usize>(
+    setting: &Setting<'_, S, M, F, C>,
+    list: &[Tracked<S, M>; K],
+    (solution, show): (&mut Solution<S, M, C>, Option<&mut Show<'_, S>>),
+) -> Result<(), Fault>
+where
+    S: Real,
+    M: Mechanism,
+    F: Formulation<S>,
+    C: Coordinates<M>,
+{
+    let mut tied = Tied::nothing();
+    tied.holds = list.each_ref().map(|tracked| tracked.mode().holds());
+    let slips = setting.here(|scene| {
+        let direction = |tracked: &Tracked<S, M>| tracked.direction_of_slip(scene);
+        list.each_ref().map(direction)
+    });
+    let mut chosen = tied.holds;
+    for index in 0..K {
+        let tracked = &list[index];
+        let (Some(contact), InteractionMode::Slipping) = (tracked.contact(index), tracked.mode())
+        else {
+            continue;
+        };
+        let [first, second] = tangents_of(list, contact);
+        let coefficient = first.and_then(|first| Some(list.get(first)?.friction()?.capacity));
+        let slip = first.and_then(|first| slips.get(first)).copied();
+        let [along, across] = slip.unwrap_or([S::zero(); 2]);
+        let component = if Some(index) == second { across } else { along };
+        let factor = -(coefficient.unwrap_or(S::zero()) * component);
+        tied.follows[index] = Some((contact, factor));
+        chosen[index] = true;
+    }
+    let mut efforts = [S::zero(); K];
+    if chosen.contains(&true) {
+        let columns = Columns::of(setting, list, &chosen)?;
+        let sticking = sticking(list);
+        for _ in 0..ROUNDS {
+            let accelerations = setting.accelerations(list, &solution.accelerations);
+            let change = tied.shared(&columns.delassus, &accelerations, &sticking);
+            columns.add_to(&change, solution);
+            for (effort, change) in efforts.iter_mut().zip(change) {
+                *effort = *effort + change;
+            }
+        }
+    }
+    if let Some(show) = show {
+        let mut sizes = exerted(list, &efforts);
+        setting.here(|scene| {
+            for (exerted, tracked) in sizes.iter_mut().zip(list) {
+                if let Some(effort) = tracked.sliding_effort(scene) {
+                    exerted.effort = effort;
+                }
+            }
+        });
+        show(&sizes);
+    }
+    Ok(())
+}

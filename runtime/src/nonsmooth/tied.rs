@@ -1,0 +1,273 @@
+//! Efforts that hold, where others are multiples of them: the friction of what slides on a contact.
+//!
+//! With `x = T h`, a row for each effort that holds and none for those that follow them, `W T` is
+//! square over what holds. It is symmetric without followers alone.
+
+use crate::math::scalar::Real;
+
+/// Rounds of refinement at the most: they take out the floor on the diagonal.
+const ROUNDS: usize = 16;
+
+/// A change below so many `EPSILON` of the efforts ends them.
+const ENOUGH: f64 = 2.0;
+
+/// How much more freely one of several that depend on each other yields, at the most.
+const WEIGHTS: f64 = 1e3;
+
+/// Floors on the diagonal of unit scale. How what depends on each other shares is known to
+/// `EPSILON` over the floor; refinement gains as many digits a round as the floor has, less those
+/// of the condition. The second one is for what the first does not end for.
+pub(super) fn floors<S: Real>() -> [S; 2] {
+    [S::EPSILON.powf(1.0 / 3.0), S::EPSILON.sqrt()]
+}
+
+/// What holds, and what follows it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tied<S, const K: usize> {
+    pub(super) holds: [bool; K],
+    /// The effort that it is a multiple of, and the factor.
+    pub(super) follows: [Option<(usize, S)>; K],
+    /// What those that follow have beside that.
+    pub(super) beside: [S; K],
+}
+
+impl<S: Real, const K: usize> Tied<S, K> {
+    /// Nothing.
+    pub(super) fn nothing() -> Self {
+        Self {
+            holds: [false; K],
+            follows: [None; K],
+            beside: [S::zero(); K],
+        }
+    }
+
+    /// Sets all efforts that follow others.
+    pub(super) fn follow(&self, efforts: &mut [S; K]) {
+        for (index, follows) in self.follows.iter().enumerate() {
+            if let Some((of, factor)) = *follows {
+                efforts[index] = factor.fused(at(efforts, of), self.beside[index]);
+            }
+        }
+    }
+
+    /// The factors of what holds. Of efforts that depend on each other each gets a share in
+    /// proportion to its weight.
+    pub(super) fn factors(&self, matrix: &[[S; K]; K], weights: &[S; K], floor: S) -> Lu<S, K> {
+        let largest = weights.iter().fold(
+            S::zero(),
+            |most, &weight| {
+                if weight > most { weight } else { most }
+            },
+        );
+        let mut scales = [S::zero(); K];
+        for index in 0..K {
+            let diagonal = matrix[index][index];
+            if self.holds[index] && diagonal > S::zero() {
+                scales[index] = diagonal.sqrt().reciprocal();
+            }
+        }
+        let mut square = [[S::zero(); K]; K];
+        for (i, row) in square.iter_mut().enumerate() {
+            for (j, element) in row.iter_mut().enumerate() {
+                let mut sum = matrix[i][j];
+                for (index, follows) in self.follows.iter().enumerate() {
+                    if let Some((of, factor)) = *follows
+                        && of == j
+                    {
+                        sum = factor.fused(matrix[i][index], sum);
+                    }
+                }
+                *element = sum * scales[i] * scales[j];
+            }
+            row[i] = if scales[i] > S::zero() {
+                let most = S::constant(WEIGHTS);
+                let yields = most.min(largest.quotient(weights[i].max(S::smallest())));
+                row[i] + floor * yields.max(S::one())
+            } else {
+                S::one()
+            };
+        }
+        Lu::of(square, scales)
+    }
+
+    /// The efforts that make the residuals of all that holds zero. Friction that sticks, of which
+    /// the contact and the coefficient are known, has a share in proportion to what that can bear.
+    pub(super) fn shared(
+        &self,
+        matrix: &[[S; K]; K],
+        offset: &[S; K],
+        sticking: &[Option<(usize, S)>; K],
+    ) -> [S; K] {
+        self.shared_beside(matrix, (offset, &[S::zero(); K]), sticking)
+    }
+
+    /// The same beside efforts that are given.
+    pub(super) fn shared_beside(
+        &self,
+        matrix: &[[S; K]; K],
+        (offset, given): (&[S; K], &[S; K]),
+        sticking: &[Option<(usize, S)>; K],
+    ) -> [S; K] {
+        let mut weights = [S::one(); K];
+        let efforts = self.weighted(matrix, (offset, given), &weights);
+        let mut contacts = sticking.iter().flatten().map(|(contact, _)| *contact);
+        let first = contacts.next();
+        if contacts.all(|contact| Some(contact) == first) {
+            return efforts;
+        }
+        let bears = sticking
+            .map(|one| one.map(|(contact, coefficient)| coefficient * at(&efforts, contact).abs()));
+        let most = bears.iter().flatten().fold(
+            S::zero(),
+            |most, &one| {
+                if one > most { one } else { most }
+            },
+        );
+        if most <= S::zero() {
+            return efforts;
+        }
+        for (weight, bears) in weights.iter_mut().zip(bears) {
+            if let Some(bears) = bears {
+                *weight = bears.quotient(most);
+            }
+        }
+        self.weighted(matrix, (offset, given), &weights)
+    }
+
+    fn weighted(
+        &self,
+        matrix: &[[S; K]; K],
+        (offset, given): (&[S; K], &[S; K]),
+        weights: &[S; K],
+    ) -> [S; K] {
+        let mut efforts = *given;
+        for floor in floors() {
+            efforts = *given;
+            let factors = self.factors(matrix, weights, floor);
+            if self.complete((matrix, &factors), offset, &mut efforts) {
+                break;
+            }
+        }
+        efforts
+    }
+
+    /// Adds to efforts what makes the residuals `W x + a` of all that holds zero; whether
+    /// refinement has ended.
+    pub(super) fn complete(
+        &self,
+        (matrix, factors): (&[[S; K]; K], &Lu<S, K>),
+        offset: &[S; K],
+        efforts: &mut [S; K],
+    ) -> bool {
+        self.follow(efforts);
+        for _ in 0..ROUNDS {
+            let mut residuals = residuals(matrix, offset, efforts);
+            for (residual, holds) in residuals.iter_mut().zip(&self.holds) {
+                if !holds {
+                    *residual = S::zero();
+                }
+            }
+            let change = factors.solve(residuals);
+            let mut is_enough = true;
+            for (effort, change) in efforts.iter_mut().zip(change) {
+                *effort = *effort - change;
+                is_enough &= change.abs() <= S::constant(ENOUGH) * S::EPSILON * effort.abs();
+            }
+            self.follow(efforts);
+            if is_enough {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// `W x + a`.
+pub(super) fn residuals<S: Real, const K: usize>(
+    matrix: &[[S; K]; K],
+    offset: &[S; K],
+    efforts: &[S; K],
+) -> [S; K] {
+    let mut residuals = *offset;
+    for (residual, row) in residuals.iter_mut().zip(matrix) {
+        let terms = row.iter().zip(efforts);
+        *residual = terms.fold(*residual, |sum, (&w, &x)| w.fused(x, sum));
+    }
+    residuals
+}
+
+/// An element by an index of a list, all of which are below `K`.
+pub(super) fn at<S: Real, const K: usize>(elements: &[S; K], index: usize) -> S {
+    elements.get(index).copied().unwrap_or(S::zero())
+}
+
+fn exchange<T: Copy, const K: usize>(elements: &mut [T; K], first: usize, second: usize) {
+    if let (Some(&a), Some(&b)) = (elements.get(first), elements.get(second)) {
+        for (index, value) in [(first, b), (second, a)] {
+            if let Some(element) = elements.get_mut(index) {
+                *element = value;
+            }
+        }
+    }
+}
+
+/// Triangular factors of a matrix, with exchanged rows.
+pub(super) struct Lu<S, const K: usize> {
+    factors: [[S; K]; K],
+    rows: [usize; K],
+    /// What rows and columns were multiplied by.
+    scales: [S; K],
+}
+
+impl<S: Real, const K: usize> Lu<S, K> {
+    pub(super) fn of(mut factors: [[S; K]; K], scales: [S; K]) -> Self {
+        let mut rows = core::array::from_fn(|row| row);
+        for k in 0..K {
+            let mut largest = k;
+            for i in k + 1..K {
+                if factors[i][k].abs() > factors[largest][k].abs() {
+                    largest = i;
+                }
+            }
+            exchange(&mut factors, k, largest);
+            exchange(&mut rows, k, largest);
+            let row = factors[k];
+            let reciprocal = row[k].reciprocal();
+            for below in factors.iter_mut().skip(k + 1) {
+                let factor = below[k] * reciprocal;
+                below[k] = factor;
+                for (element, &above) in below.iter_mut().zip(&row).skip(k + 1) {
+                    *element = *element - factor * above;
+                }
+            }
+        }
+        Self {
+            factors,
+            rows,
+            scales,
+        }
+    }
+
+    /// The solution, in the units of the matrix without its scales.
+    pub(super) fn solve(&self, right: [S; K]) -> [S; K] {
+        let mut x: [S; K] = core::array::from_fn(|row| {
+            let from = self.rows[row];
+            at(&right, from) * at(&self.scales, from)
+        });
+        for i in 0..K {
+            for k in 0..i {
+                x[i] = x[i] - self.factors[i][k] * x[k];
+            }
+        }
+        for i in (0..K).rev() {
+            for k in i + 1..K {
+                x[i] = x[i] - self.factors[i][k] * x[k];
+            }
+            x[i] = x[i].quotient(self.factors[i][i]);
+        }
+        for (x, &scale) in x.iter_mut().zip(&self.scales) {
+            *x = *x * scale;
+        }
+        x
+    }
+}
