@@ -11,8 +11,13 @@
 //! depend on each other, as of a block on four corners, are shared: normal ones evenly, those of
 //! friction in proportion to what each contact can bear.
 
+mod admissible;
+mod choices;
+
 use crate::math::scalar::Real;
-use crate::nonsmooth::tied::{Lu, Tied, at, floors, residuals};
+use crate::nonsmooth::cone_problem::choices::{Choice, Friction};
+pub(super) use crate::nonsmooth::cone_problem::choices::{Role, Rough};
+use crate::nonsmooth::tied::{Lu, Tied, floors, residuals};
 
 /// Choices of modes at the most.
 const CHOICES: usize = 20_000;
@@ -28,37 +33,6 @@ const STEPS: usize = 40;
 
 /// Directions from which it starts.
 const STARTS: usize = 8;
-
-/// What may act at an unknown.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Role<S> {
-    /// A known effort.
-    Given(S),
-    /// Friction at rest: efforts within bounds, and those while it slides down or up, which are at
-    /// the upper and at the lower bound.
-    Within { bounds: [S; 2], sliding: [S; 2] },
-    /// A limit that pushes with a sign, with at least so much.
-    Pushes {
-        sign: S,
-        least: S,
-        rough: Option<Rough<S>>,
-    },
-    /// Friction in the plane of a contact, which stands before it.
-    Tangent,
-}
-
-/// Friction of a contact.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rough<S> {
-    /// Coulomb's coefficient.
-    pub(super) coefficient: S,
-    /// The same while it sticks: less by round-off for what was found at its end.
-    pub(super) at_rest: S,
-    /// The unknowns along which friction acts, one or two.
-    pub(super) tangents: [Option<usize>; 2],
-    /// The direction of the slip that is there, of length 1.
-    pub(super) slip: Option<[S; 2]>,
-}
 
 /// Where an unknown is in a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,119 +77,10 @@ pub(super) enum NoSolution {
     TooMany,
 }
 
-/// A choice for one unknown.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Choice<S> {
-    Given(S),
-    Holds,
-    Slides(S, S),
-    /// A limit: it bears, or has its least effort. Its friction.
-    On(bool, Friction<S>),
-    Tangent,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Friction<S> {
-    Nothing,
-    Sticks,
-    /// It slips in a direction that is there.
-    Slips([S; 2]),
-    /// It begins to slip in a direction.
-    Begins([S; 2]),
-    /// It begins to slip in a direction that is looked for.
-    Seeks,
-}
-
 /// What is solved for under a choice.
 struct Guess<S, const K: usize> {
     tied: Tied<S, K>,
     given: [S; K],
-}
-
-impl<S: Real> Rough<S> {
-    fn has_plane(&self) -> bool {
-        self.tangents.iter().all(Option::is_some)
-    }
-
-    /// In how many ways there may be friction.
-    fn ways(&self) -> usize {
-        match (self.slip, self.has_plane()) {
-            (Some(_), _) => 1,
-            (None, true) => 2,
-            (None, false) => 3,
-        }
-    }
-
-    fn way(&self, number: usize) -> Friction<S> {
-        let (zero, one) = (S::zero(), S::one());
-        match (self.slip, number) {
-            (Some(slip), _) => Friction::Slips(slip),
-            (None, 0) => Friction::Sticks,
-            (None, _) if self.has_plane() => Friction::Seeks,
-            (None, 1) => Friction::Begins([one, zero]),
-            (None, _) => Friction::Begins([-one, zero]),
-        }
-    }
-
-    /// A vector in the plane of the contact.
-    fn read<const K: usize>(&self, elements: &[S; K]) -> [S; 2] {
-        let read = |index: Option<usize>| index.map_or(S::zero(), |index| at(elements, index));
-        self.tangents.map(read)
-    }
-}
-
-impl<S: Real> Role<S> {
-    /// How many choices there are.
-    fn choices(&self) -> usize {
-        match self {
-            Self::Given(_) | Self::Tangent => 1,
-            Self::Within { bounds, .. } if bounds[0] < bounds[1] => 3,
-            Self::Within { .. } => 2,
-            Self::Pushes { rough: None, .. } => 2,
-            Self::Pushes {
-                rough: Some(rough),
-                least,
-                ..
-            } => {
-                let without = if *least > S::zero() { rough.ways() } else { 1 };
-                rough.ways() + without
-            }
-        }
-    }
-
-    fn choice(&self, number: usize) -> Choice<S> {
-        match *self {
-            Self::Given(effort) => Choice::Given(effort),
-            Self::Tangent => Choice::Tangent,
-            Self::Within { bounds, sliding } => {
-                let number = if bounds[0] < bounds[1] {
-                    number
-                } else {
-                    number + 1
-                };
-                match number {
-                    0 => Choice::Holds,
-                    1 => Choice::Slides(S::one(), sliding[0]),
-                    _ => Choice::Slides(-S::one(), sliding[1]),
-                }
-            }
-            Self::Pushes { rough: None, .. } => Choice::On(number == 0, Friction::Nothing),
-            Self::Pushes {
-                rough: Some(rough),
-                least,
-                ..
-            } => {
-                let ways = rough.ways();
-                if number < ways {
-                    Choice::On(true, rough.way(number))
-                } else if least > S::zero() {
-                    Choice::On(false, rough.way(number - ways))
-                } else {
-                    Choice::On(false, Friction::Nothing)
-                }
-            }
-        }
-    }
 }
 
 impl<S: Real, const K: usize> ConeProblem<S, K> {
@@ -449,125 +314,6 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
             ) if sought[index] => Some((rough, direction)),
             _ => None,
         }
-    }
-
-    /// The efforts as a solution, if they are one.
-    fn admissible(&self, choices: &[Choice<S>; K], efforts: &[S; K]) -> Option<ConeSolution<S, K>> {
-        let rates = residuals(&self.matrix, &self.offset, efforts);
-        let sizes = self.sizes(efforts);
-        let noise = S::constant(NOISE) * S::EPSILON;
-        let mut outcomes = [Outcome::Given; K];
-        let mut idle: isize = 0;
-        for index in 0..K {
-            let (effort, rate) = (efforts[index], rates[index]);
-            let diagonal = self.matrix[index][index];
-            let moves = diagonal > S::zero();
-            let of_rate = noise * sizes[index];
-            let of_effort = if moves {
-                of_rate.quotient(diagonal)
-            } else {
-                S::zero()
-            };
-            let rests = !moves || rate.abs() <= S::constant(1e4) * of_rate;
-            let is_right = match (choices[index], self.roles[index]) {
-                (
-                    Choice::Holds,
-                    Role::Within {
-                        bounds: [lower, upper],
-                        ..
-                    },
-                ) => {
-                    outcomes[index] = Outcome::Holds;
-                    rests && effort >= lower - of_effort && effort <= upper + of_effort
-                }
-                (Choice::Slides(sign, _), _) => {
-                    outcomes[index] = Outcome::Slides(sign);
-                    sign * rate >= -of_rate
-                }
-                (Choice::On(bears, friction), Role::Pushes { sign, least, rough }) => {
-                    let rightly = if bears {
-                        outcomes[index] = Outcome::Holds;
-                        rests && sign * effort >= least - of_effort
-                    } else {
-                        sign * rate >= -of_rate
-                    };
-                    let rubs = rough.is_none_or(|rough| {
-                        let by = (&mut outcomes, &mut idle, of_effort);
-                        self.rubs(&rough, (friction, effort), (efforts, &rates, &sizes), by)
-                    });
-                    rightly && rubs
-                }
-                _ => true,
-            };
-            if !is_right {
-                return None;
-            }
-        }
-        Some(ConeSolution {
-            efforts: *efforts,
-            residuals: rates,
-            outcomes,
-            idle,
-        })
-    }
-
-    /// Whether the friction of a contact is as it was chosen.
-    fn rubs(
-        &self,
-        rough: &Rough<S>,
-        (friction, normal): (Friction<S>, S),
-        (efforts, rates, sizes): (&[S; K], &[S; K], &[S; K]),
-        (outcomes, idle, of_effort): (&mut [Outcome<S>; K], &mut isize, S),
-    ) -> bool {
-        let noise = S::constant(NOISE) * S::EPSILON;
-        let (outcome, is_right) = match friction {
-            Friction::Nothing => return true,
-            Friction::Sticks => {
-                let mut of_tangents = S::zero();
-                let mut rests = true;
-                for index in rough.tangents.into_iter().flatten() {
-                    let diagonal = self
-                        .matrix
-                        .get(index)
-                        .map_or(S::zero(), |row| at(row, index));
-                    if diagonal > S::zero() {
-                        let of_rate = noise * at(sizes, index);
-                        of_tangents = of_tangents.max(of_rate.quotient(diagonal));
-                        rests &= at(rates, index).abs() <= S::constant(1e4) * of_rate;
-                    }
-                }
-                let size = length(rough.read(efforts));
-                let bears = rough.at_rest * (normal.abs() + of_effort);
-                (Outcome::Holds, rests && size <= bears + of_tangents)
-            }
-            Friction::Slips(slip) => (Outcome::Slips(slip), true),
-            Friction::Begins([x, y]) => {
-                let [along, across] = rough.read(rates);
-                let [first, second] = rough.read(sizes);
-                let rate = x * along + y * across;
-                // What was found at the end of its sticking is there to so many digits.
-                let less = (rough.coefficient - rough.at_rest).quotient(rough.coefficient);
-                let resolved = if rough.coefficient > S::zero() {
-                    less
-                } else {
-                    S::zero()
-                };
-                let noise = (noise + resolved) * (first + second);
-                let is_right = rate >= -noise;
-                if rate <= noise {
-                    let ended = rough.at_rest < rough.coefficient;
-                    *idle += if ended { -1 } else { 1 };
-                }
-                (Outcome::Slips([x, y]), is_right)
-            }
-            Friction::Seeks => return false,
-        };
-        for index in rough.tangents.into_iter().flatten() {
-            if let Some(place) = outcomes.get_mut(index) {
-                *place = outcome;
-            }
-        }
-        is_right
     }
 }
 

@@ -91,6 +91,12 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let near = self.near(limits, scene);
         let value = self.interaction.quantity.value(scene);
         let (gap, is_lower) = limits.gap(value);
+        if gap.to_f64().is_nan() {
+            return Err(Fault::Step(StepFault::EventNotANumber {
+                event: self.interaction.name(),
+                time: scene.time.to_f64(),
+            }));
+        }
         let sign = if is_lower { S::one() } else { -S::one() };
         if gap < -near.held {
             return Err(Fault::Assembly(AssemblyFault::BeyondLimit {

@@ -1,0 +1,247 @@
+//! Blocks that tip, slide, rock and stand on each other.
+
+use holonom::mechanism::{Absolute, Coordinates, Relative};
+use holonom::prelude::*;
+use holonom::run::{InteractionMode, Plane};
+
+use super::tight;
+
+const GRAVITY: f64 = 9.81;
+
+/// Two blocks in a plane on a table that a driver shakes. The lower one is 1 m wide and 2 m high.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+pub(crate) struct Stack {
+    /// How far the table is moved (m), and how fast (rad/s).
+    #[param]
+    amplitude: f64,
+    #[param]
+    frequency: f64,
+    #[body(mass = 5.0, inertia = [1.0, 1.0, 1.0])]
+    table: Body,
+    #[body(mass = 3.0, inertia = [1.25, 1.25, 0.5], position = [0.0, 0.0, 1.0])]
+    lower: Body,
+    #[body(mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.0, 0.0, 2.25])]
+    upper: Body,
+    #[joint(between = [ground, table], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0])]
+    slide: Prismatic,
+    #[joint(between = [ground, table], point = [0.0, 0.0, 0.0], axis = [1.0, 0.0, 0.0], motion = amplitude * (1.0 - cos(frequency * time)))]
+    shaker: DisplacementDriver,
+    #[joint(between = [ground, lower], point = [0.0, 0.0, 1.0], normal = [0.0, 1.0, 0.0])]
+    lower_plane: Planar,
+    #[joint(between = [ground, upper], point = [0.0, 0.0, 2.25], normal = [0.0, 1.0, 0.0])]
+    upper_plane: Planar,
+    #[point(on = lower, at = [-0.5, 0.0, 0.0])]
+    left: Point,
+    #[point(on = lower, at = [0.5, 0.0, 0.0])]
+    right: Point,
+    #[point(on = upper, at = [-0.25, 0.0, 2.0])]
+    upper_left: Point,
+    #[point(on = upper, at = [0.25, 0.0, 2.0])]
+    upper_right: Point,
+}
+
+type Contacts<const N: usize> = [Interaction<f64, Stack>; N];
+
+/// The contacts of two corners side by side.
+fn both([first, second]: [Contacts<2>; 2]) -> Contacts<4> {
+    let ([a, b], [c, d]) = (first, second);
+    [a, b, c, d]
+}
+
+/// The lower block on a plane that is inclined by an angle about the global y axis.
+fn on_incline(stack: &Stack, angle: f64) -> (StateOf<Stack>, Plane<f64, Stack>) {
+    let h = Stack::HANDLES;
+    let (sine, cosine) = angle.sin_cos();
+    let mut start = stack.described_state().expect("it is described");
+    let mut pose = stack.view(0.0, &start).expect("a view").pose(h.lower);
+    pose.position = [sine, 0.0, cosine].into();
+    let half = 0.5 * angle;
+    pose.orientation = holonom::nalgebra::Quaternion::new(half.cos(), 0.0, half.sin(), 0.0);
+    Stack::set_pose(&mut start, h.lower, pose);
+    let plane = Plane::on_ground([0.0; 3], [sine, 0.0, cosine]).along([cosine, 0.0, -sine]);
+    (start, plane)
+}
+
+fn goes<C: Coordinates<Stack>>(angle: f64, friction: f64) {
+    let (stack, h) = (Stack::new(0.0, 1.0).expect("it is"), Stack::HANDLES);
+    let (start, plane) = on_incline(&stack, angle);
+    let contacts = both([h.left, h.right].map(|corner| {
+        Interaction::contact(corner, plane).with_plane_friction(friction)
+    }));
+    let [left, _, right, rubs] = Interaction::handles(&contacts);
+    let (sine, cosine) = angle.sin_cos();
+    // It stands on its corner in front where that has to bear more than the weight.
+    let tips = sine.min(friction * cosine) > 0.5 * cosine;
+    let slides = !tips && friction * cosine < sine;
+    let mut state = None;
+    let report = Simulation::new(&stack, StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .initial_state(start)
+        .interactions(contacts)
+        .run(0.0..=0.1, every(0.05), |sample| -> Result<(), Fault> {
+            state = Some([sample.mode(left)?, sample.mode(right)?, sample.mode(rubs)?]);
+            if !tips {
+                let [first, second] = [sample.effort(left)?, sample.effort(right)?];
+                let normal = 3.0 * GRAVITY * cosine;
+                // Moments about the middle below: what friction turns, the normal efforts hold.
+                let along = 3.0 * GRAVITY * sine.min(friction * cosine);
+                assert!((first + second - normal).abs() < 1e-10);
+                assert!((second - first - 2.0 * along).abs() < 1e-9, "{first} {second}");
+            }
+            Ok(())
+        })
+        .expect("it goes");
+    let wanted = match (tips, slides) {
+        (true, _) => [InteractionMode::Free, InteractionMode::AtLower, InteractionMode::Sticking],
+        (_, true) => [InteractionMode::AtLower, InteractionMode::AtLower, InteractionMode::Slipping],
+        _ => [InteractionMode::AtLower, InteractionMode::AtLower, InteractionMode::Sticking],
+    };
+    assert_eq!(state, Some(wanted), "{angle} {friction}");
+    let view = stack.view(0.1, &report.state).expect("a view");
+    let (speed, turning) = (view.velocity(h.lower).norm(), view.angular_velocity(h.lower).y);
+    if !tips {
+        let wanted = if slides { 0.1 * GRAVITY * (sine - friction * cosine) } else { 0.0 };
+        assert!((speed - wanted).abs() < 1e-11, "{speed} {wanted}");
+        assert!(turning.abs() < 1e-12, "{turning:e}");
+    } else {
+        assert!(turning > 1e-3, "{turning}");
+    }
+}
+
+#[test]
+fn a_block_on_an_incline_stays_slides_or_tips() {
+    for (angle, friction) in [(0.4, 0.5), (0.4, 0.43), (0.4, 0.42), (0.4, 0.0), (0.55, 0.49), (0.55, 0.8), (0.47, 10.0), (0.46, 10.0)] {
+        goes::<Relative>(angle, friction);
+    }
+    goes::<Absolute>(0.4, 0.3);
+    goes::<Absolute>(0.55, 0.8);
+}
+
+/// The time (s) in which a block of 1 m by 2 m falls from an inclination onto its base, over its
+/// corner: `4/3 R w' = g (cos(a - i) - cos(a - i0))`, by Simpson's rule in the root of the way.
+fn falls(inclination: f64) -> f64 {
+    let (height, slender) = (1.25_f64.sqrt(), 0.5_f64.atan());
+    let squared = 1.5 * GRAVITY / height;
+    let potential = |at: f64| (slender - at).cos();
+    let rate = |s: f64| {
+        if s == 0.0 {
+            return 2.0 / (squared * (slender - inclination).sin()).sqrt();
+        }
+        2.0 * s / (squared * (potential(inclination) - potential(inclination - s * s))).sqrt()
+    };
+    let (count, end) = (4000, inclination.sqrt());
+    let step = end / f64::from(count);
+    let mut sum = rate(0.0) + rate(end);
+    for k in 1..count {
+        sum += if k % 2 == 1 { 4.0 } else { 2.0 } * rate(f64::from(k) * step);
+    }
+    sum * step / 3.0
+}
+
+/// Housner, The behavior of inverted pendulum structures during earthquakes, 1963: at every impact
+/// the rate is multiplied by `1 - 3/2 sin^2 a`.
+#[test]
+fn a_rocking_block_loses_what_housner_says() {
+    let (stack, h) = (Stack::new(0.0, 1.0).expect("it is"), Stack::HANDLES);
+    let slender = 0.5_f64.atan();
+    let first: f64 = 0.2;
+    // It leans to the right over its right corner, which stays where it is.
+    let mut start = stack.described_state().expect("it is described");
+    let mut pose = stack.view(0.0, &start).expect("a view").pose(h.lower);
+    let (sine, cosine) = first.sin_cos();
+    pose.position = [0.5 - 0.5 * cosine + sine, 0.0, 0.5 * sine + cosine].into();
+    let half = 0.5 * first;
+    pose.orientation = holonom::nalgebra::Quaternion::new(half.cos(), 0.0, half.sin(), 0.0);
+    Stack::set_pose(&mut start, h.lower, pose);
+    let ground = Plane::on_ground([0.0; 3], [0.0, 0.0, 1.0]);
+    let contacts = both([h.left, h.right].map(|corner| {
+        Interaction::contact(corner, ground).with_plane_friction(0.8)
+    }));
+    let [left, _, right, _] = Interaction::handles(&contacts);
+    let mut times = Vec::new();
+    stack
+        .simulation(StandardLagrange, DormandPrince::new(tight()))
+        .initial_state(start)
+        .interactions(contacts)
+        .run(0.0..=4.0, every(4.0), |sample| -> Result<(), Fault> {
+            for corner in [left, right] {
+                if let Some(impact) = sample.impact(corner)?
+                    && impact.time == sample.time()
+                {
+                    times.push(sample.time());
+                }
+            }
+            Ok(())
+        })
+        .expect("it rocks");
+    times.dedup();
+    assert!(times.len() > 4, "{times:?}");
+    let ratio: f64 = 1.0 - 1.5 * slender.sin().powi(2);
+    let (mut inclination, mut time) = (first, falls(first));
+    for (number, &found) in times.iter().take(5).enumerate() {
+        assert!((found - time).abs() < 1e-9, "{number}: {found} {time}");
+        let height = ratio * ratio * ((slender - inclination).cos() - slender.cos());
+        inclination = slender - (slender.cos() + height).acos();
+        time += 2.0 * falls(inclination);
+    }
+}
+
+/// The upper block slips while the table is faster than its friction allows; the lower one bears
+/// both and sticks.
+fn shaken<C: Coordinates<Stack>>() {
+    let (amplitude, frequency, friction) = (0.03, 10.0, 0.2);
+    let stack = Stack::new(amplitude, frequency).expect("it is");
+    let h = Stack::HANDLES;
+    let table = Plane::on(h.table, [0.0; 3], [0.0, 0.0, 1.0]);
+    let top = Plane::on(h.lower, [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
+    let below = [h.left, h.right].map(|corner| {
+        Interaction::contact(corner, table).with_plane_friction(0.6)
+    });
+    let above = [h.upper_left, h.upper_right].map(|corner| {
+        Interaction::contact(corner, top).with_plane_friction(friction)
+    });
+    let ([a, b, c, d], [e, f, g, i]) = (both(below), both(above));
+    let contacts = [a, b, c, d, e, f, g, i];
+    let [left, holds, right, _, upper_left, rubs, upper_right, _] = Interaction::handles(&contacts);
+    // mu g t = A w sin(w t), by Newton's method.
+    let (decelerated, accelerated) = (friction * GRAVITY, amplitude * frequency * frequency);
+    let mut catches: f64 = 0.2;
+    for _ in 0..50 {
+        let slip = decelerated * catches - accelerated / frequency * (frequency * catches).sin();
+        catches -= slip / (decelerated - accelerated * (frequency * catches).cos());
+    }
+    let begins = (-decelerated / accelerated).acos() / frequency;
+    assert!(catches < begins);
+    let mut last = (0.0, InteractionMode::Free);
+    let mut changes = Vec::new();
+    Simulation::new(&stack, StandardLagrange, DormandPrince::new(tight()))
+        .coordinates::<C>()
+        .interactions(contacts)
+        .run(0.0..=0.3, every(0.01), |sample| -> Result<(), Fault> {
+            let mode = sample.mode(rubs)?;
+            if mode != last.1 {
+                changes.push((sample.time(), mode));
+            }
+            last = (sample.time(), mode);
+            assert_eq!(sample.mode(holds)?, InteractionMode::Sticking);
+            let above = sample.effort(upper_left)? + sample.effort(upper_right)?;
+            assert!((above - GRAVITY).abs() < 1e-9, "{above}");
+            let below = sample.effort(left)? + sample.effort(right)?;
+            assert!((below - 4.0 * GRAVITY).abs() < 1e-9, "{below}");
+            Ok(())
+        })
+        .expect("it is shaken");
+    let wanted = [(0.0, InteractionMode::Slipping), (catches, InteractionMode::Sticking), (begins, InteractionMode::Slipping)];
+    for ((time, mode), (at, wanted)) in changes.iter().zip(wanted) {
+        assert_eq!(*mode, wanted);
+        assert!((time - at).abs() < 1e-9, "{time} {at}");
+    }
+    assert_eq!(changes.len(), 3, "{changes:?}");
+}
+
+#[test]
+fn a_stack_on_a_shaken_table_slips_and_sticks() {
+    shaken::<Relative>();
+    shaken::<Absolute>();
+}
