@@ -39,7 +39,8 @@ fn floor() -> Plane<f64, Bowling> {
 /// from the velocity.
 fn rolls_after<C: Coordinates<Bowling>>(velocity: [f64; 3], spin: [f64; 3], friction: f64) {
     let (bowling, h) = (Bowling::default(), Bowling::HANDLES);
-    let slip = Vector3::from(velocity) + Vector3::from(spin).cross(&Vector3::new(0.0, 0.0, -RADIUS));
+    let slip =
+        Vector3::from(velocity) + Vector3::from(spin).cross(&Vector3::new(0.0, 0.0, -RADIUS));
     let until = 2.0 * slip.norm() / (7.0 * friction * GRAVITY);
     let contact = Interaction::contact(h.ball, floor())
         .radius(RADIUS)
@@ -50,29 +51,36 @@ fn rolls_after<C: Coordinates<Bowling>>(velocity: [f64; 3], spin: [f64; 3], fric
         .coordinates::<C>()
         .initial_state(start([0.0, 0.0, RADIUS], velocity, spin))
         .interactions(contact)
-        .run(0.0..=1.5 * until, every(0.25 * until), |sample| -> Result<(), Fault> {
-            let weight = 7.0 * GRAVITY;
-            assert!((sample.effort(normal)? - weight).abs() < 1e-10);
-            let sticks = sample.mode(along)? == InteractionMode::Sticking;
-            assert_eq!(sample.mode(along), sample.mode(across));
-            let friction_now = sample.effort(along)?.hypot(sample.effort(across)?);
-            if sticks {
-                rolling = rolling.or(Some(sample.time()));
-                assert!(friction_now < 1e-9, "{friction_now:e}");
-            } else {
-                assert!((friction_now - friction * weight).abs() < 1e-10);
-            }
-            let part = (sample.time() / until).min(1.0);
-            let wanted = Vector3::from(velocity) - 2.0 / 7.0 * part * slip;
-            let size = 1.0 + slip.norm();
-            let error = (sample.velocity(h.ball) - wanted).norm();
-            assert!(error < 1e-9 * size, "{error:e} at {}", sample.time());
-            Ok(())
-        })
+        .run(
+            0.0..=1.5 * until,
+            every(0.25 * until),
+            |sample| -> Result<(), Fault> {
+                let weight = 7.0 * GRAVITY;
+                assert!((sample.effort(normal)? - weight).abs() < 1e-10);
+                let sticks = sample.mode(along)? == InteractionMode::Sticking;
+                assert_eq!(sample.mode(along), sample.mode(across));
+                let friction_now = sample.effort(along)?.hypot(sample.effort(across)?);
+                if sticks {
+                    rolling = rolling.or(Some(sample.time()));
+                    assert!(friction_now < 1e-9, "{friction_now:e}");
+                } else {
+                    assert!((friction_now - friction * weight).abs() < 1e-10);
+                }
+                let part = (sample.time() / until).min(1.0);
+                let wanted = Vector3::from(velocity) - 2.0 / 7.0 * part * slip;
+                let size = 1.0 + slip.norm();
+                let error = (sample.velocity(h.ball) - wanted).norm();
+                assert!(error < 1e-9 * size, "{error:e} at {}", sample.time());
+                Ok(())
+            },
+        )
         .expect("it rolls");
     assert!(report.warnings().is_empty(), "{}", report.warnings());
     let rolling = rolling.expect("it has rolled");
-    assert!((rolling - until).abs() < 1e-9 * until.max(1.0), "{rolling} {until}");
+    assert!(
+        (rolling - until).abs() < 1e-9 * until.max(1.0),
+        "{rolling} {until}"
+    );
 }
 
 #[test]
@@ -106,26 +114,41 @@ fn on_an_incline_it_rolls_or_slips_by_its_angle() {
             let [_, along, _] = Interaction::handles(&contact);
             let report = bowling
                 .simulation(StandardLagrange, DormandPrince::new(tight()))
-                .initial_state(start([RADIUS * sine, 0.0, RADIUS * cosine], [0.0; 3], [0.0; 3]))
+                .initial_state(start(
+                    [RADIUS * sine, 0.0, RADIUS * cosine],
+                    [0.0; 3],
+                    [0.0; 3],
+                ))
                 .interactions(contact)
                 .run(0.0..=1.0, every(0.5), |sample| {
                     let found = sample.mode(along) == Ok(InteractionMode::Slipping);
                     assert_eq!(found, slips, "{friction} {angle}");
                 })
                 .expect("it goes down");
-            let speed = bowling.view(1.0, &report.state).expect("a view").velocity(h.ball).norm();
+            let speed = bowling
+                .view(1.0, &report.state)
+                .expect("a view")
+                .velocity(h.ball)
+                .norm();
             let wanted = if slips {
                 GRAVITY * (sine - friction * cosine)
             } else {
                 5.0 / 7.0 * GRAVITY * sine
             };
-            assert!((speed - wanted.abs()).abs() < 1e-11 * GRAVITY, "{speed} {wanted}");
+            assert!(
+                (speed - wanted.abs()).abs() < 1e-11 * GRAVITY,
+                "{speed} {wanted}"
+            );
         }
     }
 }
 
 /// Against a cushion at 3 m/s: friction takes `min(mu (1 + e) v, 2/7 |s|)` of the slip.
-fn bounces(spin: [f64; 3], friction: f64, poisson: bool) -> (Vector3<f64>, Vector3<f64>, Impact<f64>) {
+fn bounces(
+    spin: [f64; 3],
+    friction: f64,
+    poisson: bool,
+) -> (Vector3<f64>, Vector3<f64>, Impact<f64>) {
     let (bowling, h) = (Bowling::default(), Bowling::HANDLES);
     let restitution = 0.8;
     let cushion = Plane::on_ground([1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]).along([0.0, 1.0, 0.0]);
@@ -142,12 +165,18 @@ fn bounces(spin: [f64; 3], friction: f64, poisson: bool) -> (Vector3<f64>, Vecto
         .simulation(StandardLagrange, DormandPrince::new(tight()))
         .initial_state(start([0.0, 0.0, 5.0], [3.0, 0.5, 0.3], spin))
         .interactions(contact)
-        .run(0.0..=0.3 + 1e-9, every(0.1), |sample| impact = sample.impact(normal).expect("one"))
+        .run(0.0..=0.3 + 1e-9, every(0.1), |sample| {
+            impact = sample.impact(normal).expect("one")
+        })
         .unwrap_or_else(|fault| panic!("{friction} {spin:?} {poisson}: {fault}"));
     let view = bowling.view(0.3, &report.state).expect("a view");
     let impact = impact.expect("it has met the cushion");
     assert!((impact.time - 0.3).abs() < 1e-12);
-    (view.velocity(h.ball), view.angular_velocity_global(h.ball), impact)
+    (
+        view.velocity(h.ball),
+        view.angular_velocity_global(h.ball),
+        impact,
+    )
 }
 
 #[test]
@@ -170,7 +199,10 @@ fn it_comes_off_a_cushion_with_the_spin_that_friction_leaves() {
                     0.5 * (7.0 * v.norm_squared() + 0.028 * w.norm_squared())
                 };
                 let lost = energy(&before, &spin.into()) - energy(&(before + change), &wanted);
-                assert!((impact.lost_energy - lost).abs() < 1e-8, "{impact:?} {lost}");
+                assert!(
+                    (impact.lost_energy - lost).abs() < 1e-8,
+                    "{impact:?} {lost}"
+                );
             }
         }
     }

@@ -66,9 +66,10 @@ fn on_incline(stack: &Stack, angle: f64) -> (StateOf<Stack>, Plane<f64, Stack>) 
 fn goes<C: Coordinates<Stack>>(angle: f64, friction: f64) {
     let (stack, h) = (Stack::new(0.0, 1.0).expect("it is"), Stack::HANDLES);
     let (start, plane) = on_incline(&stack, angle);
-    let contacts = both([h.left, h.right].map(|corner| {
-        Interaction::contact(corner, plane).with_plane_friction(friction)
-    }));
+    let contacts = both(
+        [h.left, h.right]
+            .map(|corner| Interaction::contact(corner, plane).with_plane_friction(friction)),
+    );
     let [left, _, right, rubs] = Interaction::handles(&contacts);
     let (sine, cosine) = angle.sin_cos();
     // It stands on its corner in front where that has to bear more than the weight.
@@ -87,21 +88,43 @@ fn goes<C: Coordinates<Stack>>(angle: f64, friction: f64) {
                 // Moments about the middle below: what friction turns, the normal efforts hold.
                 let along = 3.0 * GRAVITY * sine.min(friction * cosine);
                 assert!((first + second - normal).abs() < 1e-10);
-                assert!((second - first - 2.0 * along).abs() < 1e-9, "{first} {second}");
+                assert!(
+                    (second - first - 2.0 * along).abs() < 1e-9,
+                    "{first} {second}"
+                );
             }
             Ok(())
         })
         .expect("it goes");
     let wanted = match (tips, slides) {
-        (true, _) => [InteractionMode::Free, InteractionMode::AtLower, InteractionMode::Sticking],
-        (_, true) => [InteractionMode::AtLower, InteractionMode::AtLower, InteractionMode::Slipping],
-        _ => [InteractionMode::AtLower, InteractionMode::AtLower, InteractionMode::Sticking],
+        (true, _) => [
+            InteractionMode::Free,
+            InteractionMode::AtLower,
+            InteractionMode::Sticking,
+        ],
+        (_, true) => [
+            InteractionMode::AtLower,
+            InteractionMode::AtLower,
+            InteractionMode::Slipping,
+        ],
+        _ => [
+            InteractionMode::AtLower,
+            InteractionMode::AtLower,
+            InteractionMode::Sticking,
+        ],
     };
     assert_eq!(state, Some(wanted), "{angle} {friction}");
     let view = stack.view(0.1, &report.state).expect("a view");
-    let (speed, turning) = (view.velocity(h.lower).norm(), view.angular_velocity(h.lower).y);
+    let (speed, turning) = (
+        view.velocity(h.lower).norm(),
+        view.angular_velocity(h.lower).y,
+    );
     if !tips {
-        let wanted = if slides { 0.1 * GRAVITY * (sine - friction * cosine) } else { 0.0 };
+        let wanted = if slides {
+            0.1 * GRAVITY * (sine - friction * cosine)
+        } else {
+            0.0
+        };
         assert!((speed - wanted).abs() < 1e-11, "{speed} {wanted}");
         assert!(turning.abs() < 1e-12, "{turning:e}");
     } else {
@@ -111,7 +134,16 @@ fn goes<C: Coordinates<Stack>>(angle: f64, friction: f64) {
 
 #[test]
 fn a_block_on_an_incline_stays_slides_or_tips() {
-    for (angle, friction) in [(0.4, 0.5), (0.4, 0.43), (0.4, 0.42), (0.4, 0.0), (0.55, 0.49), (0.55, 0.8), (0.47, 10.0), (0.46, 10.0)] {
+    for (angle, friction) in [
+        (0.4, 0.5),
+        (0.4, 0.43),
+        (0.4, 0.42),
+        (0.4, 0.0),
+        (0.55, 0.49),
+        (0.55, 0.8),
+        (0.47, 10.0),
+        (0.46, 10.0),
+    ] {
         goes::<Relative>(angle, friction);
     }
     goes::<Absolute>(0.4, 0.3);
@@ -155,9 +187,10 @@ fn a_rocking_block_loses_what_housner_says() {
     pose.orientation = holonom::nalgebra::Quaternion::new(half.cos(), 0.0, half.sin(), 0.0);
     Stack::set_pose(&mut start, h.lower, pose);
     let ground = Plane::on_ground([0.0; 3], [0.0, 0.0, 1.0]);
-    let contacts = both([h.left, h.right].map(|corner| {
-        Interaction::contact(corner, ground).with_plane_friction(0.8)
-    }));
+    let contacts = both(
+        [h.left, h.right]
+            .map(|corner| Interaction::contact(corner, ground).with_plane_friction(0.8)),
+    );
     let [left, _, right, _] = Interaction::handles(&contacts);
     let mut times = Vec::new();
     stack
@@ -195,12 +228,10 @@ fn shaken<C: Coordinates<Stack>>() {
     let h = Stack::HANDLES;
     let table = Plane::on(h.table, [0.0; 3], [0.0, 0.0, 1.0]);
     let top = Plane::on(h.lower, [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
-    let below = [h.left, h.right].map(|corner| {
-        Interaction::contact(corner, table).with_plane_friction(0.6)
-    });
-    let above = [h.upper_left, h.upper_right].map(|corner| {
-        Interaction::contact(corner, top).with_plane_friction(friction)
-    });
+    let below = [h.left, h.right]
+        .map(|corner| Interaction::contact(corner, table).with_plane_friction(0.6));
+    let above = [h.upper_left, h.upper_right]
+        .map(|corner| Interaction::contact(corner, top).with_plane_friction(friction));
     let ([a, b, c, d], [e, f, g, i]) = (both(below), both(above));
     let contacts = [a, b, c, d, e, f, g, i];
     let [left, holds, right, _, upper_left, rubs, upper_right, _] = Interaction::handles(&contacts);
@@ -232,7 +263,11 @@ fn shaken<C: Coordinates<Stack>>() {
             Ok(())
         })
         .expect("it is shaken");
-    let wanted = [(0.0, InteractionMode::Slipping), (catches, InteractionMode::Sticking), (begins, InteractionMode::Slipping)];
+    let wanted = [
+        (0.0, InteractionMode::Slipping),
+        (catches, InteractionMode::Sticking),
+        (begins, InteractionMode::Slipping),
+    ];
     for ((time, mode), (at, wanted)) in changes.iter().zip(wanted) {
         assert_eq!(*mode, wanted);
         assert!((time - at).abs() < 1e-9, "{time} {at}");

@@ -41,31 +41,39 @@ fn lifts(speed: f64) -> Option<f64> {
     let cam = Cam::new(speed).expect("it is");
     let h = Cam::HANDLES;
     let mut start = cam.described_state().expect("it is described");
-    cam.set_angle_rate(&mut start, h.shaft, speed).expect("it turns");
-    cam.set_displacement_rate(&mut start, h.guide, OFFSET * speed).expect("it slides");
+    cam.set_angle_rate(&mut start, h.shaft, speed)
+        .expect("it turns");
+    cam.set_displacement_rate(&mut start, h.guide, OFFSET * speed)
+        .expect("it slides");
     let flat = Plane::on(h.follower, [0.0, 0.0, -0.1], [0.0, 0.0, -1.0]).along([1.0, 0.0, 0.0]);
-    let contact = Interaction::contact(h.cam, flat).radius(0.05).with_plane_friction(FRICTION);
+    let contact = Interaction::contact(h.cam, flat)
+        .radius(0.05)
+        .with_plane_friction(FRICTION);
     let [normal, rubs] = Interaction::handles(&contact);
     let mut lifted = None;
     let turn = core::f64::consts::TAU / speed;
     cam.simulation(StandardLagrange, DormandPrince::new(tight()))
         .initial_state(start)
         .interactions(contact)
-        .run(0.0..=turn, every(turn / 40.0), |sample| -> Result<(), Fault> {
-            if lifted.is_some() {
-                return Ok(());
-            }
-            if sample.mode(normal)? == InteractionMode::Free {
-                lifted = Some(sample.time());
-                return Ok(());
-            }
-            let wanted = pressed(speed, speed * sample.time());
-            let effort = sample.effort(normal)?;
-            assert!((effort - wanted).abs() < 1e-8, "{effort} {wanted}");
-            // The cam slips backwards at its top.
-            assert!((sample.effort(rubs)? - FRICTION * effort).abs() < 1e-9);
-            Ok(())
-        })
+        .run(
+            0.0..=turn,
+            every(turn / 40.0),
+            |sample| -> Result<(), Fault> {
+                if lifted.is_some() {
+                    return Ok(());
+                }
+                if sample.mode(normal)? == InteractionMode::Free {
+                    lifted = Some(sample.time());
+                    return Ok(());
+                }
+                let wanted = pressed(speed, speed * sample.time());
+                let effort = sample.effort(normal)?;
+                assert!((effort - wanted).abs() < 1e-8, "{effort} {wanted}");
+                // The cam slips backwards at its top.
+                assert!((sample.effort(rubs)? - FRICTION * effort).abs() < 1e-9);
+                Ok(())
+            },
+        )
         .expect("it turns");
     lifted
 }
@@ -81,6 +89,9 @@ fn a_follower_lifts_off_from_the_speed_of_the_closed_form_on() {
         let found = lifts(speed).expect("it lifts off");
         // Where it barely does, the instant goes with the root of the effort.
         let round_off = if speed < 71.0 { 1e-7 } else { 1e-11 };
-        assert!((found - wanted).abs() < round_off, "{speed}: {found} {wanted}");
+        assert!(
+            (found - wanted).abs() < round_off,
+            "{speed}: {found} {wanted}"
+        );
     }
 }

@@ -42,8 +42,14 @@ fn settings_that_are_none_are_named() {
     named(fault(contact().with_friction(-0.1)), "coefficient");
     named(fault(contact().with_friction(f64::INFINITY)), "coefficient");
     named(fault(contact().radius(-0.1).with_friction(0.1)), "radius");
-    named(fault(contact().radius(f64::NAN).with_friction(0.1)), "radius");
-    named(fault([contact().restitution_of_impulses(1.5)]), "restitution");
+    named(
+        fault(contact().radius(f64::NAN).with_friction(0.1)),
+        "radius",
+    );
+    named(
+        fault([contact().restitution_of_impulses(1.5)]),
+        "restitution",
+    );
     let along = floor().along([0.0, 0.0, 3.0]);
     let upright = Interaction::contact(h.ball, along).radius(0.1);
     named(fault(upright.with_friction(0.1)), "along");
@@ -93,7 +99,11 @@ fn falls(of_impulses: bool) -> Result<f64, Fault> {
         .initial_state(start)
         .interactions(contact)
         .run(0.0..=0.02, every(0.01), |sample| {
-            lost = sample.impact(normal).ok().flatten().map(|impact| impact.lost_energy);
+            lost = sample
+                .impact(normal)
+                .ok()
+                .flatten()
+                .map(|impact| impact.lost_energy);
         })
         .map_err(|error| error.fault)?;
     Ok(lost.expect("it falls"))
@@ -140,7 +150,10 @@ fn a_block_that_digs_in_is_named() {
         let fault = run.err().map(|error| error.fault);
         let told = matches!(
             fault,
-            Some(Fault::Mode(ModeFault::NoUniqueFriction { joint: "right", .. }))
+            Some(Fault::Mode(ModeFault::NoUniqueFriction {
+                joint: "right",
+                ..
+            }))
         );
         assert_eq!(told, is_told, "{friction} {critical}: {fault:?}");
     }
@@ -154,7 +167,10 @@ fn a_disc_that_lies_flat_is_named() {
     assert!(
         matches!(
             found,
-            Some(Fault::Step(StepFault::EventNotANumber { event: "ball", .. }))
+            Some(Fault::Step(StepFault::EventNotANumber {
+                event: "ball",
+                ..
+            }))
         ),
         "{found:?}"
     );
