@@ -45,7 +45,7 @@ pub enum ModeFault {
         time: f64,
     },
     /// More contacts with friction are closed at once than all choices of their modes can be tried
-    /// for: nine at rest, or fewer beside other interactions.
+    /// for: nine at rest in space, seven in a plane, fewer beside other interactions.
     TooManyContacts {
         /// The field of the body or the point of one of them.
         joint: &'static str,
@@ -135,12 +135,13 @@ impl fmt::Display for ModeFault {
             Self::NoUniqueFriction { joint, time } => write!(
                 f,
                 "at {} s the friction of `{joint}` by its load has no effort, or several (Painleve's paradox): what it adds to its own load, times its coefficient, \
-                 reaches 1; take a smaller coefficient, a longer guide, or a spring and a damper that bear the load",
+                 reaches 1; take a smaller coefficient, a longer guide, or a spring and a damper that bear the load; of contacts that are closed at once, \
+                 leave out those that others replace",
                 Given(time)
             ),
             Self::TooManyContacts { joint, time } => write!(
                 f,
-                "at {} s too many contacts with friction are closed at once, that of `{joint}` among them: nine at rest are the most; \
+                "at {} s too many contacts with friction are closed at once, that of `{joint}` among them: nine at rest are the most, seven in a plane; \
                  leave out contacts that bear nothing",
                 Given(time)
             ),

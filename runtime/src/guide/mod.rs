@@ -18,7 +18,7 @@
 //! | [`events`] | stops, switches and limits at their exact time; controllers at their period |
 //! | [`switches`] | forces that jump or bend: backlash, saturation, pulses, ropes; `sign abs min max if` in laws |
 //! | [`states`] | numbers with a rate of their own: motor currents, filters, hydraulic pressures, integrals of controllers |
-//! | [`contact`] | limits with impacts, ropes, dry friction, brakes and clutches |
+//! | [`contact`] | limits with impacts, contacts with friction, ropes, dry friction, brakes and clutches |
 //! | [`parameters`] | numbers known only at run time, and inputs that change at every step |
 //! | [`results`] | what can be read, with units, frames and signs; states in files |
 //! | [`restart`] | checkpoints of a run, from which it goes on exactly; a motion that can be asked at any time |
