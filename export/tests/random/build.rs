@@ -7,10 +7,10 @@ mod common;
 mod elements;
 #[path = "../../../macros/engine/tests/mechanisms/generator.rs"]
 mod generator;
-#[path = "../../../macros/engine/tests/common/language.rs"]
-mod language;
 #[path = "../../../macros/engine/tests/mechanisms/library.rs"]
 mod library;
+#[path = "../../../macros/engine/tests/common/pose.rs"]
+mod pose;
 #[path = "../../../macros/engine/tests/common/reading.rs"]
 mod reading;
 #[path = "../../../macros/engine/tests/common/writing.rs"]

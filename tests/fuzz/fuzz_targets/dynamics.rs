@@ -20,6 +20,8 @@ mod inputs;
 mod language;
 #[path = "../../../macros/engine/tests/mechanisms/library.rs"]
 mod library;
+#[path = "../../../macros/engine/tests/common/pose.rs"]
+mod pose;
 #[path = "../../../macros/engine/tests/common/reading.rs"]
 mod reading;
 #[path = "../../../macros/engine/tests/mechanisms/redundancy.rs"]

@@ -12,7 +12,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{BinOp, Expr, ExprLit, Ident, Lit, Meta, Token, UnOp, braced, parenthesized};
 
-use crate::language::{Pose, normals, normals_without_cases};
+use crate::pose::{Pose, normals, normals_without_cases};
 
 pub(crate) type Numbers = [f64; 3];
 

@@ -230,7 +230,7 @@ fn pair(seed: u64) -> [Text; 2] {
     if dice.below(3) == 0 {
         axes.rotate_left(dice.below(3));
     } else {
-        let pose = crate::language::Pose::still([0.0; 3], dice.unit());
+        let pose = crate::pose::Pose::still([0.0; 3], dice.unit());
         axes = axes.map(|axis| pose.global_of(axis));
     }
     let mut written = Loop {

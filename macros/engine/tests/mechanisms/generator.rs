@@ -3,7 +3,7 @@
 use holonom_engine::model::ElementKind;
 
 use crate::elements::Wanted;
-use crate::language::Pose;
+use crate::pose::Pose;
 use crate::text::Text;
 use crate::writing::{Dice, Statement, Written, definition};
 

@@ -23,6 +23,8 @@ mod inputs;
 mod language;
 mod library;
 mod loops;
+#[path = "../common/pose.rs"]
+mod pose;
 #[path = "../common/reading.rs"]
 mod reading;
 mod reduced;

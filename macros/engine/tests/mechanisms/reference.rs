@@ -10,7 +10,8 @@
 
 use num_dual::Dual2_64;
 
-use crate::language::{Acting, Interpreter, Pose, constant, dot};
+use crate::language::{Acting, Interpreter};
+use crate::pose::{Pose, constant, dot};
 use crate::reading::{Described, Element, Numbers};
 
 /// The state of a mechanism at one instant, in the user's axes.

@@ -6,7 +6,8 @@ use holonom_engine::symbolic::scene::Scene;
 use holonom_engine::symbolic::vector::Frame;
 use num_dual::Dual2_64;
 
-use crate::language::{Acting, Interpreter, Pose, constant, dot};
+use crate::language::{Acting, Interpreter};
+use crate::pose::{Pose, constant, dot};
 use crate::random::{Dice, Joint};
 use crate::{STATES, State, TOLERANCE, deviation, model, pose, values};
 

@@ -15,6 +15,8 @@ mod common;
 mod forces;
 #[path = "../common/language.rs"]
 mod language;
+#[path = "../common/pose.rs"]
+mod pose;
 mod random;
 #[path = "../common/reading.rs"]
 mod reading;
@@ -27,8 +29,9 @@ use holonom_engine::symbolic::arena::{Arena, Expr, Input};
 use holonom_engine::symbolic::evaluate::evaluate;
 use holonom_engine::symbolic::scene::Scene;
 use holonom_engine::symbolic::vector::Frame;
-use language::{Interpreter, Pose};
+use language::Interpreter;
 use num_dual::Dual2_64;
+use pose::Pose;
 use random::{Dice, Joint};
 
 /// Of the largest number that the interpreter met on the way.

@@ -6,7 +6,8 @@ use holonom_engine::model::{ElementKind, Model};
 
 use crate::State;
 use crate::common::tokens;
-use crate::language::{Interpreter, Pose, constant};
+use crate::language::Interpreter;
+use crate::pose::{Pose, constant};
 use crate::reading::{Described, Element};
 pub(crate) use crate::writing::Dice;
 use crate::writing::{Statement, Written, definition, law};
