@@ -408,6 +408,10 @@ impl<'a> Interpreter<'a> {
             "atan2" => {
                 let (sine, cosine) = (number(0), number(1));
                 self.avoid(sine * sine + cosine * cosine);
+                // Round-off must not decide by which half turn it is.
+                if cosine.re < 0.0 {
+                    self.avoid(sine);
+                }
                 scalar(arc(sine, cosine))
             }
             "sqrt" => scalar(self.root(number(0))),

@@ -3,6 +3,7 @@
 use holonom_engine::model::ElementKind;
 
 use crate::comparison::Extent;
+use crate::reference::{Equations, State};
 use crate::text::{Outcome, Text};
 
 /// A given moment and a spring on one body: their sum was turned out of the body and back, which
@@ -421,5 +422,33 @@ fn a_row_whose_size_varies_is_compared_with_itself() {
             "{:?}",
             outcome.err()
         );
+    }
+}
+
+/// A moment by the angle of a point that is opposite to where angles begin, but for round-off: it
+/// is half a turn, or minus that.
+const JUMP: &str = "
+    pub struct Random {
+        #[body(mass = 1.0, inertia = [1.0, 1.0, 1.0], orientation = [0.5, 0.1, 0.7, 0.3], free)]
+        a: Body,
+        #[force(between = [ground, a], axis = [0.3, 0.5, 0.7])]
+        turned: Half,
+    }";
+
+#[test]
+fn an_angle_at_its_jump_is_not_compared() {
+    for (cosine, is_compared) in [(-0.5, false), (0.5, true)] {
+        let own = format!(
+            "Half(i, j; axis: Axis) {{
+                moment atan2(dot(i.axis, j.axis.normal()), {cosine:?}) * j.axis on j;
+            }}"
+        );
+        let text = Text {
+            item: JUMP.into(),
+            definitions: vec![("Half".into(), ElementKind::Force, own)],
+        };
+        let (_, described) = text.read().expect("a mechanism");
+        let equations = Equations::new(&described, &State::start(&described, 0));
+        assert_eq!(equations.is_some(), is_compared, "{cosine}");
     }
 }
