@@ -16,6 +16,7 @@ pub struct Beginning<'a> {
     following: OnceCell<Vec<(usize, usize)>>,
     stops: OnceCell<Vec<Place>>,
     free: OnceCell<Option<Free>>,
+    elsewhere: OnceCell<Vec<Place>>,
 }
 
 impl<'a> Beginning<'a> {
@@ -28,6 +29,7 @@ impl<'a> Beginning<'a> {
             following: OnceCell::new(),
             stops: OnceCell::new(),
             free: OnceCell::new(),
+            elsewhere: OnceCell::new(),
         }
     }
 
@@ -47,6 +49,16 @@ impl<'a> Beginning<'a> {
     /// What the constraints leave free; none where nothing can be told.
     pub(super) fn free(&self) -> Option<&Free> {
         self.free.get_or_init(|| Free::of(&self.whole())).as_ref()
+    }
+
+    /// Times and coordinates of the bodies far from the sweep, on other branches where there are
+    /// some.
+    pub(super) fn elsewhere(&self) -> &[Place] {
+        self.elsewhere.get_or_init(|| {
+            let places = self.free().zip(self.stops().first());
+            let places = places.map(|(free, about)| free.elsewhere(&self.whole(), about));
+            places.unwrap_or_default()
+        })
     }
 
     /// The mechanism with all its equations.

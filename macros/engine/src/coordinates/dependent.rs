@@ -5,8 +5,8 @@
 //! from the others wherever the rows are independent, not here and there: so the mechanism is led
 //! on a sweep, and where some velocities come near to being undetermined by rows that determine
 //! others, the rows stay behind. A sweep is one way only: so what is chosen is then looked at where
-//! it changes most ([`Descent`]). Where there is no sweep, what rows determine by numbers alone is
-//! certain ([`certain`]).
+//! it changes most, and on other branches ([`Descent`]). Where there is no sweep, what rows
+//! determine by numbers alone is certain ([`certain`]).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -132,18 +132,20 @@ impl<'a> Open<'a> {
         let regular = self.regular(&chosen.rows);
         let size = |&&(stop, _): &&(&Stop, f64)| share(stop).abs();
         let least = regular.iter().min_by(|a, b| size(a).total_cmp(&size(b)));
-        let mut from = least
-            .into_iter()
-            .chain(regular.first())
-            .map(|&(stop, volume)| (&stop.at, SINGULAR * volume));
-        from.find_map(|(at, least)| {
-            descent.vanishing(at, |rows| {
-                let factors = vec![1.0; rows.len()];
-                let mut stop = Stop::new(rows, factors, at.clone(), 0);
-                self.reduced(&mut stop, &chosen.rows)?;
-                let volume = self.volume(&stop, &chosen.rows, &known);
-                (volume > least).then(|| share(&stop))
-            })
+        let seen = |rows: Vec<Vec<f64>>, least: f64| {
+            let factors = vec![1.0; rows.len()];
+            let mut stop = Stop::new(rows, factors, Place::default(), 0);
+            self.reduced(&mut stop, &chosen.rows)?;
+            let volume = self.volume(&stop, &chosen.rows, &known);
+            (volume > least).then(|| share(&stop))
+        };
+        let mut from = least.into_iter().chain(regular.first());
+        let along = from.find_map(|&(Stop { at, .. }, volume)| {
+            descent.vanishing(at, |rows| seen(rows, SINGULAR * volume))
+        });
+        along.or_else(|| {
+            let (_, volume) = regular.first()?;
+            descent.vanishing_elsewhere(|rows| seen(rows, SINGULAR * volume))
         })
     }
 

@@ -1,9 +1,10 @@
-//! Where a share of closing rows vanishes, if motion can lead there.
+//! Where a share of closing rows vanishes, if motion can lead there, or on another branch.
 //!
 //! A sweep is one way through configurations of as many dimensions as motion is free. What vanishes
 //! somewhere need not vanish on it. So a mechanism is moved as the share changes most, downhill and
 //! uphill, and on over valleys and hills. If the share depends on one loop alone, this turns that
-//! loop all round, whatever else could move.
+//! loop all round, whatever else could move. A state may be set on another branch, where no motion
+//! leads: there, ways begin where random configurations come to lie.
 
 use std::cell::Cell;
 
@@ -32,6 +33,7 @@ const SMALL: f64 = 1e-6;
 
 /// The closing rows as numbers, wherever the bodies are.
 pub(super) struct Descent<'a> {
+    beginning: &'a Beginning<'a>,
     free: &'a Free,
     /// Joint coordinates as functions of those of the bodies.
     joints: Tape,
@@ -54,6 +56,7 @@ impl<'a> Descent<'a> {
         let count = outputs.len() - links.velocities;
         let flat: Vec<Expr> = rows.iter().flatten().copied().collect();
         Some(Self {
+            beginning,
             free: beginning.free()?,
             joints: Tape::new(&arena, &outputs[..count]),
             rows: Tape::new(&arena, &flat),
@@ -84,21 +87,45 @@ impl<'a> Descent<'a> {
     }
 
     /// Two places between which a share vanishes, or the second of which it hardly reaches, on ways
-    /// that begin at a place. A share of `None` is that of a singular position. Where motion has
-    /// one way only, the sweep has been there.
+    /// that begin at a place of the sweep. A share of `None` is that of a singular position. Where
+    /// motion has one way only, the sweep has been there.
     pub(super) fn vanishing(
         &self,
         from: &Place,
         share: impl Fn(Vec<Vec<f64>>) -> Option<f64>,
     ) -> Option<[Place; 2]> {
+        self.on_ways(from, 2, &|place: &Place| share(self.rows(place)?))
+    }
+
+    /// The same on other branches, where no sweep has been: from where the share is least.
+    pub(super) fn vanishing_elsewhere(
+        &self,
+        share: impl Fn(Vec<Vec<f64>>) -> Option<f64>,
+    ) -> Option<[Place; 2]> {
         let share = &|place: &Place| share(self.rows(place)?);
+        let places = self.beginning.elsewhere().iter();
+        let shares = places.filter_map(|place| Some((place, share(place)?.abs())));
+        let (from, least) = shares.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        if least <= STEADY {
+            return Some([from.clone(), from.clone()]);
+        }
+        self.on_ways(from, 1, share)
+    }
+
+    /// The same on ways from a place, where motion has so many at least.
+    fn on_ways(
+        &self,
+        from: &Place,
+        fewest: usize,
+        share: &impl Fn(&Place) -> Option<f64>,
+    ) -> Option<[Place; 2]> {
         [-1.0, 1.0].into_iter().find_map(|side| {
             let mut at = from.clone();
             let mut value = share(&at)?;
             let mut heading: Option<Vec<f64>> = None;
             for _ in 0..STEPS {
                 let motions = self.free.motions(&at);
-                if motions.len() < 2 {
+                if motions.len() < fewest {
                     return None;
                 }
                 self.work

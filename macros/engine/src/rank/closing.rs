@@ -100,10 +100,14 @@ impl Free {
         constraints.map(|(constraints, _)| Self(constraints))
     }
 
+    pub(super) fn constraints(&self) -> &Constraints {
+        &self.0
+    }
+
     /// Motions of unit length and at right angles that span what is free.
     pub(crate) fn motions(&self, at: &Place) -> Vec<Vec<f64>> {
         let mut found: Vec<Direction> = Vec::new();
-        let rows = self.0.directions(&configuration(at), TOLERANCE);
+        let rows = self.0.directions(&at.into(), TOLERANCE);
         let span = rows.as_ref().map(|rows| Span::of(rows, TOLERANCE));
         let mut random = Random::new();
         while let Some(span) = &span {
@@ -127,21 +131,23 @@ impl Free {
 
     /// Another place after a motion, straight on.
     pub(crate) fn moved(&self, at: &Place, motion: &[f64]) -> Place {
-        let moved = self.0.moved(&configuration(at), motion);
+        let moved = self.0.moved(&at.into(), motion);
         (moved.time, moved.coordinates)
     }
 
     /// The place on the constraints that a motion leads to, if it does.
     pub(crate) fn reached(&self, at: &Place, motion: &[f64]) -> Option<Place> {
-        let reached = self.0.assembled(&self.0.moved(&configuration(at), motion));
+        let reached = self.0.assembled(&self.0.moved(&at.into(), motion));
         reached.map(|reached| (reached.time, reached.coordinates))
     }
 }
 
-fn configuration((time, coordinates): &Place) -> Configuration {
-    Configuration {
-        coordinates: coordinates.clone(),
-        time: *time,
+impl From<&Place> for Configuration {
+    fn from((time, coordinates): &Place) -> Self {
+        Self {
+            coordinates: coordinates.clone(),
+            time: *time,
+        }
     }
 }
 

@@ -68,6 +68,7 @@ mod contradiction;
 mod definite;
 mod dense;
 mod displacement;
+mod elsewhere;
 mod geometry;
 mod limits;
 mod motion;

@@ -216,7 +216,7 @@ impl Constraints {
     }
 
     /// The outputs of a kernel; `None` where one is not known, or beyond all numbers.
-    fn evaluate(&self, tape: &Tape, at: &Configuration) -> Option<Vec<f64>> {
+    pub(super) fn evaluate(&self, tape: &Tape, at: &Configuration) -> Option<Vec<f64>> {
         self.evaluate_moving(tape, at, &[])
     }
 

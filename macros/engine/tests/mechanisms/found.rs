@@ -452,3 +452,39 @@ fn an_angle_at_its_jump_is_not_compared() {
         assert_eq!(equations.is_some(), is_compared, "{cosine}");
     }
 }
+
+/// A body on a ball, and two equations that hold on two branches. On one of them its axis `a` stays
+/// where it is, and what the equations determine of the angular velocity is all but the part along
+/// that axis; on the other one they determine this part. Only the branch of the start was looked
+/// at, and in all states of the other one a pivot vanished.
+const TWO_BRANCHES: &str = "
+    pub struct Random {
+        #[body(mass = 0.429371262613466, inertia = [1.517062526761617, 1.5488179325105103, 1.941099003501372], position = [0.0, 0.0, 1.0], free)]
+        b1: Body,
+        #[joint(between = [b0, ground], p = [0.5, -0.49549709771925166, 0.5], q = [-0.5, -0.5, 0.0], a = [0.0, 0.0, 1.0], v = [1.0, 0.0, 0.0])]
+        j0: Branches,
+        #[joint(between = [b1, ground], point = [1.0, 1.0, 0.25], pitch = 0.5220082419032978, axis = [1.0, 0.0, 0.0])]
+        j1: Screw,
+        #[body(mass = 2.1778047248039427, inertia = [0.512923365010183, 1.1983291751902094, 1.3892003538566917], position = [0.0, -0.5052827861828428, 0.0], free)]
+        b0: Body,
+    }";
+
+#[test]
+fn velocities_follow_on_all_branches() {
+    let own = "Branches(i, j; p: Point, q: Point, a: Axis, v: Vector) {
+        dot(i.a.normals(), cross(j.q - i.p, i.a.normal() - j.v - i.p + j.origin));
+        j.p - i.q + j.a;
+    }";
+    let text = Text {
+        item: TWO_BRANCHES.into(),
+        definitions: vec![("Branches".into(), ElementKind::Joint, own.into())],
+    };
+    for seed in 500_189..500_197 {
+        let outcome = text.check(&text, seed, Extent::Full);
+        assert!(
+            matches!(outcome, Ok(Outcome::Compared(_))),
+            "{:?}",
+            outcome.err()
+        );
+    }
+}
