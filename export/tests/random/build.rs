@@ -1,6 +1,8 @@
 //! Writes random mechanisms of the engine's tests as Rust.
 #![allow(dead_code, reason = "the tests use more of it")]
 
+#[path = "../../../macros/engine/tests/mechanisms/apart.rs"]
+mod apart;
 #[path = "../../../macros/engine/tests/common/mod.rs"]
 mod common;
 #[path = "../../../macros/engine/tests/mechanisms/elements.rs"]
@@ -28,8 +30,9 @@ mod text {
 
 use std::path::Path;
 
+use apart::Mechanism;
 use common::{checked, tokens};
-use generator::{Generator, Mechanism};
+use generator::Generator;
 
 fn setting(name: &str, default: u64) -> u64 {
     println!("cargo::rerun-if-env-changed={name}");

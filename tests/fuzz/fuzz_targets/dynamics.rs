@@ -4,6 +4,8 @@
 #![no_main]
 #![allow(dead_code, reason = "the test uses more of it")]
 
+#[path = "../../../macros/engine/tests/mechanisms/apart.rs"]
+mod apart;
 #[path = "../../../macros/engine/tests/common/mod.rs"]
 mod common;
 #[path = "../../../macros/engine/tests/mechanisms/comparison.rs"]
@@ -42,6 +44,7 @@ mod text;
 mod writing;
 
 use comparison::Extent;
+use generator::Generator;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -49,5 +52,7 @@ fuzz_target!(|bytes: &[u8]| {
     let Some((seed, choices)) = bytes.split_first_chunk::<2>() else {
         return;
     };
-    shrink::run(u64::from(u16::from_le_bytes(*seed)), choices, Extent::Quick);
+    let seed = u64::from(u16::from_le_bytes(*seed));
+    let mechanism = Generator::new(seed, choices).mechanism();
+    shrink::run(mechanism, seed, Extent::Quick);
 });

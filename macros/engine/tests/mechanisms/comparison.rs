@@ -115,6 +115,7 @@ impl<'a> Comparison<'a> {
             mechanisms: 1,
             equations: model.layout().rows,
             loops: usize::from(model.joints.len() > model.bodies.len()),
+            rolling: usize::from(!model.velocity_rows().is_empty()),
             dropped: dropped.iter().filter(|dropped| **dropped).count(),
             ..Statistics::default()
         };

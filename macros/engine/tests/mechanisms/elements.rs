@@ -15,6 +15,8 @@ pub(crate) enum Wanted {
     Loop,
     /// What fits in a plane.
     Planar,
+    /// What has equations of velocities.
+    Rolling,
 }
 
 const TREE: [&str; 12] = [
@@ -63,6 +65,13 @@ const PLANAR: [&str; 6] = [
     "RevoluteRevolute",
     "AngleDriver",
     "Distance",
+];
+const ROLLING: [&str; 5] = [
+    "KnifeEdge",
+    "RollingWheel",
+    "RollingWheel",
+    "RollingBall",
+    "RollingBall",
 ];
 /// For a particle as the second body.
 const PARTICLE: [&str; 8] = [
@@ -156,6 +165,7 @@ impl Generator {
             (_, Wanted::Tree) => &TREE,
             (_, Wanted::Loop) => &LOOP,
             (_, Wanted::Planar) => &PLANAR,
+            (_, Wanted::Rolling) => &ROLLING,
         };
         let ty = names[self.dice.below(names.len())];
         let [i, j] = pair;
@@ -264,6 +274,11 @@ impl Generator {
         pair: &[Option<usize>; 2],
     ) -> Option<Entries> {
         let unit = |v: [f64; 3]| v.map(|x| x / length(v));
+        // In a mechanism that moves in a plane, so does a wheel.
+        let (normal, plane) = match self.plane {
+            Some(plane) => (self.across(plane), Some(plane)),
+            None => (normal, None),
+        };
         let center = self.point();
         let radius = 0.2 + 0.3 * self.dice.number().abs();
         let n = unit(normal);
@@ -274,7 +289,7 @@ impl Generator {
         ];
         let mut arm = n.map(|x| -radius * x);
         if is_wheel {
-            let axle = self.dice.unit::<3>();
+            let axle = plane.map_or_else(|| self.dice.unit(), unit);
             let crown = [0.0, 0.3 * radius][self.dice.below(2)];
             let lean: f64 = (0..3).map(|k| n[k] * axle[k]).sum();
             if lean.abs() > 0.9 {

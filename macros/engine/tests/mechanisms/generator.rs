@@ -2,9 +2,9 @@
 
 use holonom_engine::model::ElementKind;
 
+use crate::apart::{Field, Mechanism, shuffle};
 use crate::elements::Wanted;
 use crate::pose::Pose;
-use crate::text::Text;
 use crate::writing::{Dice, Statement, Written, definition};
 
 /// Definitions are shorter than this, in characters.
@@ -12,82 +12,6 @@ const LONG: usize = 450;
 
 /// Run-time values of a mechanism.
 const MOST_VALUES: usize = 24;
-
-/// A field of the struct.
-#[derive(Clone)]
-pub(crate) struct Field {
-    pub(crate) word: &'static str,
-    pub(crate) name: String,
-    pub(crate) ty: String,
-    /// What a run-time value is.
-    pub(crate) value: f64,
-    /// `key = value`, or a key alone.
-    pub(crate) entries: Vec<(String, String)>,
-}
-
-/// A mechanism, apart.
-#[derive(Clone)]
-pub(crate) struct Mechanism {
-    pub(crate) attributes: Vec<(String, String)>,
-    pub(crate) fields: Vec<Field>,
-    pub(crate) definitions: Vec<(String, ElementKind, String)>,
-}
-
-fn list(entries: &[(String, String)]) -> String {
-    let entries = entries.iter().map(|(key, value)| match value.as_str() {
-        "" => key.clone(),
-        value => format!("{key} = {value}"),
-    });
-    entries.collect::<Vec<_>>().join(", ")
-}
-
-impl Mechanism {
-    pub(crate) fn text(&self) -> Text {
-        let fields = self.fields.iter().map(|field| {
-            let Field {
-                word,
-                name,
-                ty,
-                value,
-                entries,
-            } = field;
-            match *word {
-                "param" | "input" => format!("/// {value:?}\n#[{word}]\n{name}: {ty},\n"),
-                _ => format!("#[{word}({})]\n{name}: {ty},\n", list(entries)),
-            }
-        });
-        let fields: String = fields.collect();
-        let attributes = match &self.attributes[..] {
-            [] => String::new(),
-            some => format!("#[mechanism({})]\n", list(some)),
-        };
-        Text {
-            item: format!("{attributes}pub struct Random {{\n{fields}}}"),
-            definitions: self.definitions.clone(),
-        }
-    }
-
-    pub(crate) fn redundant(&mut self, wish: Option<&str>) {
-        self.attributes.retain(|(key, _)| key != "redundant");
-        if let Some(wish) = wish {
-            self.attributes
-                .push(("redundant".into(), format!("{wish:?}")));
-        }
-    }
-
-    /// The same with its fields in another order.
-    pub(crate) fn shuffled(&self, dice: &mut Dice) -> Self {
-        let mut shuffled = self.clone();
-        shuffle(&mut shuffled.fields, dice);
-        shuffled
-    }
-}
-
-fn shuffle<T>(items: &mut [T], dice: &mut Dice) {
-    for k in (1..items.len()).rev() {
-        items.swap(k, dice.below(k + 1));
-    }
-}
 
 pub(crate) fn show<const N: usize>(numbers: [f64; N]) -> String {
     format!("{:?}", numbers.map(|x| x + 0.0))
@@ -113,9 +37,11 @@ pub(crate) struct Generator {
     /// Whether numbers are mostly simple.
     is_simple: bool,
     /// The axis of all joints, in a mechanism that moves in a plane.
-    plane: Option<[f64; 3]>,
+    pub(crate) plane: Option<[f64; 3]>,
     /// The axes of hinges, and their bodies.
     pub(crate) hinges: Vec<([Option<usize>; 2], [f64; 3])>,
+    /// Whether one of the joints has equations of velocities.
+    rolls: bool,
 }
 
 impl Generator {
@@ -146,7 +72,14 @@ impl Generator {
             is_simple,
             plane,
             hinges: Vec::new(),
+            rolls: false,
         }
+    }
+
+    /// Wants a joint with equations of velocities in the mechanism.
+    pub(crate) fn with_rolling(mut self) -> Self {
+        self.rolls = true;
+        self
     }
 
     pub(crate) fn mechanism(mut self) -> Mechanism {
@@ -170,8 +103,12 @@ impl Generator {
                 .collect();
             self.connect(parent, child, &others);
         }
-        for _ in 0..self.dice.below(3) {
+        // What rolls closes a loop itself.
+        for _ in 0..self.dice.below(if self.rolls { 2 } else { 3 }) {
             self.close();
+        }
+        if self.rolls {
+            self.roll();
         }
         if self.dice.below(4) == 0 {
             self.repeat();
@@ -270,7 +207,9 @@ impl Generator {
     }
 
     fn body(&mut self, place: usize) {
-        let is_particle = self.plane.is_none() && self.dice.below(6) == 0;
+        // A body that rolls is rigid.
+        let is_rigid = self.rolls && place == 0;
+        let is_particle = self.plane.is_none() && self.dice.below(6) == 0 && !is_rigid;
         let at = self.point();
         let mass = 0.3 + 2.0 * self.dice.number().abs();
         let position = self.vector(at);
@@ -434,6 +373,36 @@ impl Generator {
         };
         if let Some((ty, bodies, entries)) = self.joint(wanted, pair) {
             self.add("joint", ty, &bodies, entries);
+        }
+    }
+
+    /// What rolls is a body of its own, free or on another as a wheel is, or one that is there.
+    fn roll(&mut self) {
+        let own = self.bodies.len();
+        let is_new = self.dice.below(6) > 0;
+        if is_new {
+            self.body(own);
+            if self.dice.below(3) == 0 {
+                let carrier = self.dice.below(own);
+                self.connect(Some(carrier), own, &[]);
+            }
+        }
+        loop {
+            let Some(mut pair) = self.some_bodies(2) else {
+                continue;
+            };
+            if is_new && !pair.contains(&Some(own)) {
+                pair[1] = Some(own);
+            }
+            if pair.iter().any(|&body| self.is_particle(body)) {
+                if is_new && self.is_particle(Some(own)) {
+                    return self.roll();
+                }
+                continue;
+            }
+            if let Some((ty, bodies, entries)) = self.joint(Wanted::Rolling, [pair[0], pair[1]]) {
+                return self.add("joint", ty, &bodies, entries);
+            }
         }
     }
 

@@ -8,8 +8,10 @@
 //! and the saddle system is solved by Gaussian elimination with complete pivoting ([`dense`]).
 //!
 //! `HOLONOM_MECHANISMS=100000 cargo test --release -p holonom-engine --test mechanisms` compares
-//! more of them, `HOLONOM_SEED=..` begins elsewhere.
+//! more of them, `HOLONOM_SEED=..` begins elsewhere. With `HOLONOM_ROLLING=1` each of them has a
+//! joint with equations of velocities.
 
+mod apart;
 mod carriers;
 #[path = "../common/mod.rs"]
 mod common;
@@ -45,6 +47,7 @@ use std::panic::resume_unwind;
 use std::thread;
 
 use comparison::Extent;
+use generator::Generator;
 use shrink::run;
 use text::{Outcome, Statistics};
 
@@ -59,10 +62,20 @@ const BATCH: u64 = 8;
 /// What becomes of some mechanisms, which know nothing of each other.
 fn side_by_side(
     seeds: Range<u64>,
+    rolls: bool,
     extent: &(impl Fn(u64) -> Extent + Sync),
 ) -> Vec<(u64, (Outcome, String))> {
+    let of = move |seed| {
+        let generator = Generator::new(seed, &[]);
+        let generator = if rolls {
+            generator.with_rolling()
+        } else {
+            generator
+        };
+        run(generator.mechanism(), seed, extent(seed))
+    };
     thread::scope(|scope| {
-        let spawn = |seed| (seed, scope.spawn(move || run(seed, &[], extent(seed))));
+        let spawn = |seed| (seed, scope.spawn(move || of(seed)));
         let running: Vec<_> = seeds.map(spawn).collect();
         let ended = running.into_iter().map(|(seed, thread)| {
             let ended = thread.join();
@@ -76,6 +89,7 @@ fn side_by_side(
 fn random_mechanisms_against_a_dense_solution() {
     let wanted = setting("HOLONOM_MECHANISMS", 60);
     let first = setting("HOLONOM_SEED", 0);
+    let rolls = setting("HOLONOM_ROLLING", 0) == 1;
     let mut statistics = Statistics::default();
     let mut used: BTreeMap<&str, usize> = library::names().map(|name| (name, 0)).collect();
     let (mut refused, mut refused_otherwise) = (0, 0);
@@ -85,12 +99,12 @@ fn random_mechanisms_against_a_dense_solution() {
         _ => Extent::Full,
     };
     let batches = (0..).map(|batch| first + batch * BATCH);
-    let outcomes = batches.flat_map(|first| side_by_side(first..first + BATCH, &extent));
+    let outcomes = batches.flat_map(|first| side_by_side(first..first + BATCH, rolls, &extent));
     for (seed, (outcome, text)) in outcomes {
         match outcome {
             Outcome::Compared(found) => {
                 statistics.add(&found);
-                if statistics.mechanisms.is_multiple_of(10_000) {
+                if statistics.mechanisms.is_multiple_of(1_000) {
                     println!("up to seed {seed}: {statistics}");
                 }
                 let types = used.iter_mut();

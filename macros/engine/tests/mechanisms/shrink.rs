@@ -1,18 +1,17 @@
-//! The mechanism of a seed, and a smaller one that fails as well.
+//! What becomes of a mechanism, and a smaller one that fails as well.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use crate::apart::Mechanism;
 use crate::comparison::Extent;
-use crate::generator::{Generator, Mechanism};
 use crate::text::Outcome;
 use crate::writing::Dice;
 
-/// What becomes of the mechanism of a seed, and its text. The first choices may be made already.
+/// What becomes of a mechanism, and its text.
 ///
 /// # Panics
 /// If something differs: with the smallest mechanism found that fails as well.
-pub(crate) fn run(seed: u64, choices: &[u8], extent: Extent) -> (Outcome, String) {
-    let mut mechanism = Generator::new(seed, choices).mechanism();
+pub(crate) fn run(mut mechanism: Mechanism, seed: u64, extent: Extent) -> (Outcome, String) {
     // What is refused is said otherwise: redundant equations left out, or kept.
     let mut wishes = [Some("drop"), Some("keep")].into_iter();
     loop {

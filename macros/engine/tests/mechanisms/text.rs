@@ -43,6 +43,8 @@ pub(crate) struct Statistics {
     pub(crate) solutions: usize,
     pub(crate) equations: usize,
     pub(crate) loops: usize,
+    /// Mechanisms with equations of velocities.
+    pub(crate) rolling: usize,
     pub(crate) dropped: usize,
     /// States on the constraints.
     pub(crate) satisfied: usize,
@@ -62,6 +64,7 @@ impl Statistics {
         self.solutions += other.solutions;
         self.equations += other.equations;
         self.loops += other.loops;
+        self.rolling += other.rolling;
         self.dropped += other.dropped;
         self.satisfied += other.satisfied;
         self.told += other.told;
@@ -79,6 +82,7 @@ impl Display for Statistics {
             solutions,
             equations,
             loops,
+            rolling,
             dropped,
             satisfied,
             told,
@@ -88,7 +92,7 @@ impl Display for Statistics {
         } = self;
         write!(
             f,
-            "{mechanisms} mechanisms, {states} states, {satisfied} on the constraints, {solutions} solutions, {equations} equations, {loops} with loops, {dropped} equations \
+            "{mechanisms} mechanisms, {states} states, {satisfied} on the constraints, {solutions} solutions, {equations} equations, {loops} with loops, {rolling} with equations of velocities, {dropped} equations \
              left out, {singular} singular, {told} with a small pivot off the constraints; largest deviation {worst:.1e} of the condition, {worst_direct:.1e} without a solution"
         )
     }
