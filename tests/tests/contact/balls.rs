@@ -20,7 +20,7 @@ pub(crate) struct Bowling {
 
 type State = StateOf<Bowling>;
 
-fn start(position: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> State {
+pub(crate) fn start(position: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> State {
     let (bowling, h) = (Bowling::default(), Bowling::HANDLES);
     let mut start = bowling.described_state().expect("it is described");
     let mut pose = bowling.view(0.0, &start).expect("a view").pose(h.ball);
@@ -31,7 +31,7 @@ fn start(position: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> State {
     start
 }
 
-fn floor() -> Plane<f64, Bowling> {
+pub(crate) fn floor() -> Plane<f64, Bowling> {
     Plane::on_ground([0.0; 3], [0.0, 0.0, 1.0])
 }
 

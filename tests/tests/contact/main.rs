@@ -4,6 +4,7 @@ mod balls;
 mod blocks;
 mod cams;
 mod faults;
+mod going_on;
 mod tops;
 
 use holonom::prelude::*;
