@@ -70,13 +70,10 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
                 setting,
             }));
         }
-        if let Quantity::Gap(_, plane, shape) = self.quantity {
-            if let Err(setting) = plane.check() {
-                return refuse(setting, S::zero());
-            }
-            if let Err((setting, length)) = shape.check() {
-                return refuse(setting, length);
-            }
+        if let Quantity::Gap(_, surface, shape) = self.quantity
+            && let Err((setting, length)) = surface.check(&shape)
+        {
+            return refuse(setting, length);
         }
         if let (Quantity::Distance(..), Some(limits)) = (self.quantity, self.law.limits()) {
             self.check_distances(limits)?;
@@ -139,8 +136,8 @@ fn stands_behind<S: Real, M: Mechanism>(
         tracked.interaction.quantity,
         contact.interaction.quantity,
     ) {
-        (Quantity::Slip(at, plane, shape, _), Quantity::Gap(of, on, with)) => {
-            (at, plane, shape) == (of, on, with)
+        (Quantity::Slip(at, surface, shape, _), Quantity::Gap(of, on, with)) => {
+            (at, surface, shape) == (of, on, with)
         }
         _ => false,
     };

@@ -1,4 +1,4 @@
-//! Contacts of shapes with planes, as a user writes them.
+//! Contacts of shapes with surfaces, as a user writes them.
 
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
@@ -7,7 +7,8 @@ use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::law::{Friction, Law, Tangent};
 use crate::nonsmooth::place::{At, Plane, direction_on};
 use crate::nonsmooth::quantity::Quantity;
-use crate::nonsmooth::shape::{Direction, Shape};
+use crate::nonsmooth::shape::{Direction, Shape, Surface};
+use crate::nonsmooth::sphere::Sphere;
 
 impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// A point of a body, or a centre of mass, that does not pass a plane: a limit on its distance
@@ -15,7 +16,22 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// unless [`Interaction::with_friction`] says so.
     #[must_use]
     pub fn contact(point: impl Located<M>, plane: Plane<S, M>) -> Self {
-        Self::touching(At::of(point), plane, Shape::Ball(S::zero()))
+        Self::touching(
+            At::of(point),
+            Surface::Plane(plane.place),
+            Shape::Ball(S::zero()),
+        )
+    }
+
+    /// A ball about a point of a body or a centre of mass that does not pass a sphere: another
+    /// ball, or a bowl that it is in. [`Interaction::radius`] is that of the first one.
+    #[must_use]
+    pub fn contact_with_sphere(centre: impl Located<M>, sphere: Sphere<S, M>) -> Self {
+        Self::touching(
+            At::of(centre),
+            Surface::Sphere(sphere.place),
+            Shape::Ball(S::zero()),
+        )
     }
 
     /// The edge of a disc that does not pass a plane: a wheel, a coin, the rim of a cylinder. Its
@@ -35,11 +51,12 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         let at = At::of(centre);
         let axis = direction_on::<S, M>(at.body::<M>(), &axis);
         let tube = S::zero();
-        Self::touching(at, plane, Shape::Disc { axis, radius, tube })
+        let shape = Shape::Disc { axis, radius, tube };
+        Self::touching(at, Surface::Plane(plane.place), shape)
     }
 
-    fn touching(at: At, plane: Plane<S, M>, shape: Shape<S>) -> Self {
-        Self::apart(Quantity::Gap(at, plane.place, shape), S::zero())
+    fn touching(at: At, surface: Surface<S>, shape: Shape<S>) -> Self {
+        Self::apart(Quantity::Gap(at, surface, shape), S::zero())
     }
 
     /// The radius (m) of the cross section of the edge of [`Interaction::contact_of_disc`], whose
@@ -113,8 +130,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         let place = Tangent { behind, has_both };
         let law = Law::Friction(Friction::of_contact(coefficient, place));
         match self.quantity {
-            Quantity::Gap(at, plane, shape) => {
-                Self::new(Quantity::Slip(at, plane, shape, along), law)
+            Quantity::Gap(at, surface, shape) => {
+                Self::new(Quantity::Slip(at, surface, shape, along), law)
             }
             quantity => {
                 let mut tangent = Self::new(quantity, law);

@@ -50,6 +50,7 @@ pub(crate) mod scene;
 pub(crate) mod shape;
 mod sizes;
 mod slipping;
+pub(crate) mod sphere;
 pub(crate) mod status;
 mod switch;
 pub(crate) mod task;

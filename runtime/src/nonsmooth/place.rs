@@ -97,7 +97,7 @@ pub(super) fn direction_on<S: Real, M: Mechanism>(body: Option<usize>, along: &[
     }
 }
 
-fn of_length_1<S: Real>(vector: &[S; 3]) -> [S; 3] {
+pub(super) fn of_length_1<S: Real>(vector: &[S; 3]) -> [S; 3] {
     let length = norm(vector);
     vector.map(|component| component.quotient(length))
 }

@@ -8,9 +8,9 @@ use crate::mechanism::handle::{HasAngle, HasDisplacement, JointHandle};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::mechanism::turns;
-use crate::nonsmooth::place::{At, PlaceOfPlane};
+use crate::nonsmooth::place::At;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::shape::{Direction, Shape};
+use crate::nonsmooth::shape::{Direction, Shape, Surface};
 use crate::state::vector::{Array, StateParts};
 
 /// The angle (rad) or the displacement (m) of a joint, by [`JointHandle::angle`] and
@@ -82,10 +82,10 @@ pub(crate) enum Quantity<S> {
     Joint(JointReading),
     /// The first less so many times the second.
     Difference(JointReading, JointReading, S),
-    /// The distance of a shape about a point from a plane.
-    Gap(At, PlaceOfPlane<S>, Shape<S>),
-    /// What touches there, along a direction of the plane: a rate, and no value.
-    Slip(At, PlaceOfPlane<S>, Shape<S>, Direction),
+    /// The distance of a shape about a point from a surface.
+    Gap(At, Surface<S>, Shape<S>),
+    /// What touches there, along a direction of the surface: a rate, and no value.
+    Slip(At, Surface<S>, Shape<S>, Direction),
     /// The distance of two points.
     Distance(At, At),
 }
@@ -96,12 +96,12 @@ impl<S> Quantity<S> {
         match self {
             Self::Joint(reading) => Quantity::Joint(*reading),
             Self::Difference(first, second, _) => Quantity::Difference(*first, *second, ()),
-            Self::Gap(at, plane, shape) => {
-                Quantity::Gap(*at, plane.without_numbers(), shape.without_numbers())
+            Self::Gap(at, surface, shape) => {
+                Quantity::Gap(*at, surface.without_numbers(), shape.without_numbers())
             }
-            Self::Slip(at, plane, shape, direction) => Quantity::Slip(
+            Self::Slip(at, surface, shape, direction) => Quantity::Slip(
                 *at,
-                plane.without_numbers(),
+                surface.without_numbers(),
                 shape.without_numbers(),
                 *direction,
             ),
@@ -118,9 +118,9 @@ impl<S: Scalar> Quantity<S> {
             Self::Difference(first, second, ratio) => {
                 Quantity::Difference(first, second, Forward::fixed(ratio))
             }
-            Self::Gap(at, plane, shape) => Quantity::Gap(at, plane.lifted(), shape.lifted()),
-            Self::Slip(at, plane, shape, direction) => {
-                Quantity::Slip(at, plane.lifted(), shape.lifted(), direction)
+            Self::Gap(at, surface, shape) => Quantity::Gap(at, surface.lifted(), shape.lifted()),
+            Self::Slip(at, surface, shape, direction) => {
+                Quantity::Slip(at, surface.lifted(), shape.lifted(), direction)
             }
             Self::Distance(a, b) => Quantity::Distance(a, b),
         }
@@ -136,8 +136,8 @@ impl<S: Scalar> Quantity<S> {
         match self {
             Self::Joint(reading) => of_joint(reading),
             Self::Difference(first, second, _) => of_joint(first) || of_joint(second),
-            Self::Gap(at, plane, _) | Self::Slip(at, plane, ..) => {
-                body_of(at) || plane.body == Some(body)
+            Self::Gap(at, surface, _) | Self::Slip(at, surface, ..) => {
+                body_of(at) || surface.body::<M>() == Some(body)
             }
             Self::Distance(a, b) => body_of(a) || body_of(b),
         }
@@ -159,7 +159,7 @@ impl<S: Scalar> Quantity<S> {
         match *self {
             Self::Joint(reading) => scene.value(reading),
             Self::Difference(..) | Self::Slip(..) => S::zero(),
-            Self::Gap(at, ref plane, ref shape) => scene.touch(at, plane, shape).gap,
+            Self::Gap(at, ref surface, ref shape) => scene.touch(at, surface, shape).gap,
             Self::Distance(a, b) => {
                 let [value, _] = scene.distance(a, b);
                 value
@@ -167,11 +167,11 @@ impl<S: Scalar> Quantity<S> {
         }
     }
 
-    /// The slip (m/s) at a contact along both directions of its plane; zero of what is none.
+    /// The slip (m/s) at a contact along both directions of its surface; zero of what is none.
     pub(super) fn slip<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> [S; 2] {
         match *self {
-            Self::Gap(at, ref plane, ref shape) | Self::Slip(at, ref plane, ref shape, _) => {
-                scene.touch(at, plane, shape).slip
+            Self::Gap(at, ref surface, ref shape) | Self::Slip(at, ref surface, ref shape, _) => {
+                scene.touch(at, surface, shape).slip
             }
             _ => [S::zero(); 2],
         }
@@ -194,9 +194,9 @@ impl<S: Scalar> Quantity<S> {
             Self::Difference(first, second, ratio) => {
                 scene.rate(first) - ratio * scene.rate(second)
             }
-            Self::Gap(at, ref plane, ref shape) => scene.touch(at, plane, shape).rate,
-            Self::Slip(at, ref plane, ref shape, direction) => {
-                let [along, across] = scene.touch(at, plane, shape).slip;
+            Self::Gap(at, ref surface, ref shape) => scene.touch(at, surface, shape).rate,
+            Self::Slip(at, ref surface, ref shape, direction) => {
+                let [along, across] = scene.touch(at, surface, shape).slip;
                 match direction {
                     Direction::Along => along,
                     Direction::Across => across,

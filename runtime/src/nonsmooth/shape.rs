@@ -1,13 +1,21 @@
-//! Shapes that touch a plane, with the motion of what touches.
+//! Shapes that touch surfaces, with the motion of what touches.
 
 use crate::forward::Forward;
 use crate::math::scalar::{Real, Scalar};
-use crate::math::vec3::{cross, minus, plus, times};
+use crate::math::vec3::{cross, minus, norm, plus, times};
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::place::{At, PlaceOfPlane, dot};
 use crate::nonsmooth::scene::Scene;
+use crate::nonsmooth::sphere::PlaceOfSphere;
 
-/// What touches a plane, about the point that it is given by.
+/// What a shape touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Surface<S> {
+    Plane(PlaceOfPlane<S>),
+    Sphere(PlaceOfSphere<S>),
+}
+
+/// What touches it, about the point that it is given by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape<S> {
     /// A ball with a radius (m): a point where that is zero.
@@ -17,7 +25,7 @@ pub(crate) enum Shape<S> {
     Disc { axis: [S; 3], radius: S, tube: S },
 }
 
-/// Along which direction of a plane, both at right angles to its normal.
+/// Along which direction of a surface, both at right angles to its normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Direction {
     Along,
@@ -25,16 +33,65 @@ pub(crate) enum Direction {
     Across,
 }
 
-/// How what is nearest to a plane lies and moves.
+/// How what is nearest to a surface lies and moves.
 #[derive(Clone, Copy)]
 pub(crate) struct Touch<S> {
-    /// Its distance from the plane (m), positive on the free side.
+    /// Its distance from the surface (m), positive on the free side.
     pub(super) gap: S,
     /// The rate of that (m/s).
     pub(super) rate: S,
-    /// The velocity (m/s) of the material that is there against that of the plane, along both
+    /// The velocity (m/s) of the material that is there against that of the surface, along both
     /// directions.
     pub(super) slip: [S; 2],
+}
+
+impl<S> Surface<S> {
+    /// The body that it is fixed on.
+    pub(super) fn body<M: Mechanism>(&self) -> Option<usize> {
+        match self {
+            Self::Plane(plane) => plane.body,
+            Self::Sphere(sphere) => sphere.at.body::<M>(),
+        }
+    }
+
+    pub(super) fn without_numbers(&self) -> Surface<()> {
+        match self {
+            Self::Plane(plane) => Surface::Plane(plane.without_numbers()),
+            Self::Sphere(sphere) => Surface::Sphere(sphere.without_numbers()),
+        }
+    }
+}
+
+impl<S: Scalar> Surface<S> {
+    pub(super) fn lifted<const N: usize>(self) -> Surface<Forward<S, N>> {
+        match self {
+            Self::Plane(plane) => Surface::Plane(plane.lifted()),
+            Self::Sphere(sphere) => Surface::Sphere(sphere.lifted()),
+        }
+    }
+}
+
+impl<S: Real> Surface<S> {
+    /// The largest of its lengths (m).
+    pub(super) fn reach<M: Mechanism>(&self, constants: &M::Constants<S>) -> S {
+        match self {
+            Self::Plane(plane) => plane.arm(),
+            Self::Sphere(sphere) => {
+                let arm = norm(&sphere.at.arm::<S, M>(constants));
+                arm.max(sphere.radius.abs())
+            }
+        }
+    }
+
+    /// What is not acceptable of it, by its setting.
+    pub(super) fn check(&self, shape: &Shape<S>) -> Result<(), (&'static str, S)> {
+        shape.check()?;
+        match (self, shape) {
+            (Self::Plane(plane), _) => plane.check().map_err(|setting| (setting, S::zero())),
+            (Self::Sphere(sphere), Shape::Ball(radius)) => sphere.check(*radius),
+            (Self::Sphere(sphere), Shape::Disc { .. }) => Err(("sphere", sphere.radius)),
+        }
+    }
 }
 
 impl<S> Shape<S> {
@@ -94,15 +151,29 @@ impl<S: Real> Shape<S> {
     }
 }
 
+/// The point that a surface is counted from, its velocity, and its normal and first direction
+/// there.
+struct Frame<S> {
+    base: [S; 3],
+    velocity: [S; 3],
+    normal: [S; 3],
+    along: [S; 3],
+}
+
 impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
-    /// What a shape does against a plane. Not a number for a disc that lies flat on it.
-    pub(crate) fn touch(&self, at: At, plane: &PlaceOfPlane<S>, shape: &Shape<S>) -> Touch<S> {
+    /// What a shape does against a surface. Not a number for a disc that lies flat on it, nor where
+    /// a sphere has no direction along it.
+    pub(crate) fn touch(&self, at: At, surface: &Surface<S>, shape: &Shape<S>) -> Touch<S> {
         let [centre, velocity] = self.at(at);
-        let [base, base_velocity] = self.point(plane.body, &plane.point);
-        let [normal, along] = [plane.normal, plane.along].map(|vector| match plane.body {
-            Some(body) => self.turned(body, &vector)[0],
-            None => vector,
-        });
+        let Frame {
+            base,
+            velocity: base_velocity,
+            normal,
+            along,
+        } = match surface {
+            Surface::Plane(plane) => self.on_plane(plane),
+            Surface::Sphere(sphere) => self.on_sphere(sphere, &centre),
+        };
         let across = cross(&normal, &along);
         let arm = match shape {
             Shape::Ball(radius) => times(&normal, -*radius),
@@ -123,15 +194,55 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
             Some(body) => cross(&self.spin(body), &arm),
             None => [S::zero(); 3],
         };
-        let of_plane = match plane.body {
+        let of_surface = match surface.body::<M>() {
             Some(body) => plus(&base_velocity, &cross(&self.spin(body), &way)),
             None => base_velocity,
         };
-        let relative = minus(&plus(&velocity, &turning), &of_plane);
+        let relative = minus(&plus(&velocity, &turning), &of_surface);
+        let beyond = match surface {
+            Surface::Plane(_) => S::zero(),
+            Surface::Sphere(sphere) if sphere.is_hollow => -sphere.radius,
+            Surface::Sphere(sphere) => sphere.radius,
+        };
         Touch {
-            gap: dot(&normal, &way),
+            gap: dot(&normal, &way) - beyond,
             rate: dot(&normal, &relative),
             slip: [dot(&along, &relative), dot(&across, &relative)],
+        }
+    }
+
+    fn on_plane(&self, plane: &PlaceOfPlane<S>) -> Frame<S> {
+        let [base, velocity] = self.point(plane.body, &plane.point);
+        let [normal, along] = [plane.normal, plane.along].map(|vector| match plane.body {
+            Some(body) => self.turned(body, &vector)[0],
+            None => vector,
+        });
+        Frame {
+            base,
+            velocity,
+            normal,
+            along,
+        }
+    }
+
+    /// At the point that is nearest to the middle of a ball.
+    fn on_sphere(&self, sphere: &PlaceOfSphere<S>, centre: &[S; 3]) -> Frame<S> {
+        let [base, velocity] = self.at(sphere.at);
+        let way = minus(centre, &base);
+        let length = dot(&way, &way).sqrt();
+        let outwards = times(&way, length.reciprocal());
+        let normal = if sphere.is_hollow {
+            outwards.map(|component| -component)
+        } else {
+            outwards
+        };
+        let within = minus(&sphere.along, &times(&normal, dot(&sphere.along, &normal)));
+        let along = times(&within, dot(&within, &within).sqrt().reciprocal());
+        Frame {
+            base,
+            velocity,
+            normal,
+            along,
         }
     }
 }

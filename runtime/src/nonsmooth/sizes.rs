@@ -98,9 +98,10 @@ impl<S: Real> Quantity<S> {
             Self::Difference(first, second, _) => {
                 of_joint(first, scene).max(of_joint(second, scene))
             }
-            Self::Gap(at, ref plane, ref shape) | Self::Slip(at, ref plane, ref shape, _) => {
+            Self::Gap(at, ref surface, ref shape) | Self::Slip(at, ref surface, ref shape, _) => {
                 let arm = norm(&at.arm::<S, M>(scene.constants));
-                arm.max(plane.arm()).max(shape.reach())
+                arm.max(surface.reach::<M>(scene.constants))
+                    .max(shape.reach())
             }
             Self::Distance(a, b) => {
                 let arm = |at: crate::nonsmooth::place::At| norm(&at.arm::<S, M>(scene.constants));

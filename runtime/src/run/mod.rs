@@ -87,6 +87,7 @@ pub use crate::nonsmooth::interaction::Interaction;
 pub use crate::nonsmooth::mode::InteractionMode;
 pub use crate::nonsmooth::place::Plane;
 pub use crate::nonsmooth::quantity::JointQuantity;
+pub use crate::nonsmooth::sphere::Sphere;
 pub use crate::nonsmooth::status::Impact;
 pub use crate::stepping::watch::Crossing;
 #[cfg(feature = "std")]

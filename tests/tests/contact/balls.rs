@@ -3,7 +3,7 @@
 use holonom::mechanism::{Absolute, Coordinates, Relative};
 use holonom::nalgebra::Vector3;
 use holonom::prelude::*;
-use holonom::run::{Impact, InteractionMode, Plane};
+use holonom::run::{Impact, InteractionMode, Plane, Sphere};
 
 use super::tight;
 
@@ -16,6 +16,9 @@ const RADIUS: f64 = 0.1;
 pub(crate) struct Bowling {
     #[body(free, mass = 7.0, inertia = [0.028, 0.028, 0.028], position = [0.0, 0.0, 0.1])]
     ball: Body,
+    /// Of a bowl of 1 m.
+    #[point(on = ground, at = [0.0, 0.0, 1.0])]
+    middle: Point,
 }
 
 type State = StateOf<Bowling>;
@@ -203,6 +206,120 @@ fn it_comes_off_a_cushion_with_the_spin_that_friction_leaves() {
                     (impact.lost_energy - lost).abs() < 1e-8,
                     "{impact:?} {lost}"
                 );
+            }
+        }
+    }
+}
+
+/// It rolls through the bottom of a bowl after a quarter of its period: `v^2 = 10/7 g (R - r)
+/// (cos a - cos a0)`, by Simpson's rule in the root of the way.
+#[test]
+fn it_rolls_in_a_bowl() {
+    let (bowling, h) = (Bowling::default(), Bowling::HANDLES);
+    let (way, first): (f64, f64) = (1.0 - RADIUS, 0.6);
+    let rate = |s: f64| {
+        let squared = 10.0 / 7.0 * GRAVITY / way;
+        if s == 0.0 {
+            2.0 / (squared * first.sin()).sqrt()
+        } else {
+            2.0 * s / (squared * ((first - s * s).cos() - first.cos())).sqrt()
+        }
+    };
+    let step = first.sqrt() / 4000.0;
+    let quarter = (0..=4000).fold(0.0, |sum, k| {
+        let weight = match k {
+            0 | 4000 => 1.0,
+            k if k % 2 == 1 => 4.0,
+            _ => 2.0,
+        };
+        sum + weight * step / 3.0 * rate(f64::from(k) * step)
+    });
+    let (sine, cosine) = first.sin_cos();
+    let bowl = Sphere::about(h.middle, 1.0).hollow().along([0.0, 1.0, 0.0]);
+    let contact = Interaction::contact_with_sphere(h.ball, bowl)
+        .radius(RADIUS)
+        .with_friction(0.5);
+    let [normal, along, across] = Interaction::handles(&contact);
+    let report = bowling
+        .simulation(StandardLagrange, DormandPrince::new(tight()))
+        .initial_state(start(
+            [way * sine, 0.0, 1.0 - way * cosine],
+            [0.0; 3],
+            [0.0; 3],
+        ))
+        .interactions(contact)
+        .run(0.0..=quarter, every(0.1), |sample| -> Result<(), Fault> {
+            assert_eq!(sample.mode(along)?, InteractionMode::Sticking);
+            let angle = (sample.position(h.ball).x / way).asin();
+            // N = m g cos a + m v^2 / (R - r)
+            let wanted = 7.0 * GRAVITY * (17.0 * angle.cos() - 10.0 * first.cos()) / 7.0;
+            assert!((sample.effort(normal)? - wanted).abs() < 1e-8);
+            let friction = sample.effort(along)?.hypot(sample.effort(across)?);
+            assert!((friction - 2.0 * GRAVITY * angle.sin().abs()).abs() < 1e-8);
+            Ok(())
+        })
+        .expect("it rolls");
+    let x = bowling
+        .view(quarter, &report.state)
+        .expect("a view")
+        .position(h.ball)
+        .x;
+    assert!(x.abs() < 1e-9, "{x:e}");
+}
+
+/// Two balls of 0.2 kg and 30 mm, without weight.
+#[derive(Mechanism)]
+struct Billiards {
+    #[body(free, mass = 0.2, inertia = [7.2e-5, 7.2e-5, 7.2e-5])]
+    cue: Body,
+    #[body(free, mass = 0.2, inertia = [7.2e-5, 7.2e-5, 7.2e-5], position = [0.5, 0.03, 0.0])]
+    object: Body,
+}
+
+/// With the slip `s`, which takes `7 / m` of an impulse across, friction gives `min(mu P, m |s| /
+/// 7)`. Both balls turn by it, and linear and angular momentum are kept.
+#[test]
+fn balls_throw_each_other_by_their_friction() {
+    let (billiards, h) = (Billiards::default(), Billiards::HANDLES);
+    let (mass, radius, restitution) = (0.2, 0.03, 0.9);
+    for friction in [0.0, 0.06, 0.5] {
+        for spin in [[0.0; 3], [0.0, 0.0, 80.0], [10.0, -40.0, -30.0]] {
+            let contact = Interaction::contact_with_sphere(h.cue, Sphere::about(h.object, radius))
+                .radius(radius)
+                .restitution(restitution)
+                .with_friction(friction);
+            let mut begun = billiards.described_state().expect("it is described");
+            Billiards::set_velocity(&mut begun, h.cue, [2.0, 0.0, 0.0].into());
+            Billiards::set_angular_velocity(&mut begun, h.cue, spin.into());
+            let report = billiards
+                .simulation(StandardLagrange, DormandPrince::new(tight()))
+                .initial_state(begun)
+                .interactions(contact)
+                .run(0.0..=0.4, every(0.1), |_| ())
+                .expect("they meet");
+            let view = billiards.view(0.4, &report.state).expect("a view");
+            // The line of both middles is at 30 degrees.
+            let line = Vector3::new(3.0_f64.sqrt() / 2.0, 0.5, 0.0);
+            let before = Vector3::new(2.0, 0.0, 0.0);
+            let slip = before + Vector3::from(spin).cross(&(radius * line));
+            let slip = slip - slip.dot(&line) * line;
+            let pressed = 0.5 * mass * (1.0 + restitution) * before.dot(&line);
+            let rubbed = if slip.norm() > 0.0 {
+                (friction * pressed).min(mass / 7.0 * slip.norm()) / slip.norm() * slip
+            } else {
+                Vector3::zeros()
+            };
+            let impulse = -pressed * line - rubbed;
+            let wanted = [before + impulse / mass, -impulse / mass];
+            let found = [view.velocity(h.cue), view.velocity(h.object)];
+            for (found, wanted) in found.iter().zip(wanted) {
+                assert!((found - wanted).norm() < 1e-9, "{found} {wanted}");
+            }
+            let turn = (radius * line).cross(&impulse) / 7.2e-5;
+            let wanted = [Vector3::from(spin) + turn, turn];
+            let found = [h.cue, h.object].map(|ball| view.angular_velocity_global(ball));
+            for (found, wanted) in found.iter().zip(wanted) {
+                assert!((found - wanted).norm() < 1e-7, "{found} {wanted}");
             }
         }
     }
