@@ -49,10 +49,7 @@ where
     if are_rough(list) {
         return cones::modes(setting, list, free);
     }
-    let chosen = list.each_ref().map(|tracked| {
-        let next = tracked.status.next;
-        !matches!(next, Next::Without)
-    });
+    let chosen = list.each_ref().map(|tracked| tracked.may_act());
     let columns = Columns::of(setting, list, &chosen)?;
     let offset = setting.accelerations(list, &free.accelerations);
     let mut problem = BoxProblem::at_rest(columns.delassus, offset);
@@ -371,6 +368,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             _ if self.friction().is_some() => InteractionMode::Released,
             _ => InteractionMode::Free,
         }
+    }
+
+    /// Whether an effort may follow.
+    pub(super) fn may_act(&self) -> bool {
+        !matches!(self.status.next, Next::Without)
     }
 
     fn is_one_way(&self) -> bool {

@@ -23,7 +23,7 @@ use crate::nonsmooth::tied::{Lu, Tied, floors, residuals};
 const CHOICES: usize = 20_000;
 
 /// Round-off of residuals and efforts, in `EPSILON`.
-const NOISE: f64 = 256.0;
+const UNCERTAIN: f64 = 256.0;
 
 /// Residuals that differ by more than this part of their terms are of different motions.
 const DIFFERENT: f64 = 1e-6;
@@ -258,7 +258,7 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
                 let rate = rough.read(&rates);
                 turning[index] = x * rate[1] - y * rate[0];
                 let size = rough.read(&sizes);
-                let noise = S::constant(NOISE) * S::EPSILON * (size[0] + size[1]);
+                let noise = S::constant(UNCERTAIN) * S::EPSILON * (size[0] + size[1]);
                 is_found &= turning[index].abs() <= noise;
                 // What a turn of the direction does to all rates.
                 let bears = rough.coefficient * efforts[index];

@@ -23,7 +23,7 @@ use crate::nonsmooth::switch::Motion;
 use crate::nonsmooth::tied::{Tied, at, residuals};
 
 /// What was found at the end of its sticking slips, to this part of what it can bear.
-const SLIPS: f64 = 1e-10;
+const AT_ITS_END: f64 = 1e-10;
 
 /// What is as near to what it can bear as this is found there together with another.
 const TOGETHER: f64 = 1e-9;
@@ -94,7 +94,7 @@ fn rough<S: Real, M: Mechanism>(
     let place = tangents[0]?;
     let first = list.get(place)?;
     let coefficient = first.friction()?.capacity;
-    let less = part::<S>(SLIPS, ROUND_OFF);
+    let less = part::<S>(AT_ITS_END, ROUND_OFF);
     // What bears a load together is at its end together.
     let Exerted { capacity, size, .. } = first.status.exerted;
     let is_near = size >= capacity * (S::one() - part::<S>(TOGETHER, ROUND_OFF));
@@ -147,7 +147,7 @@ fn roles<S: Real, M: Mechanism, const K: usize>(
 fn at_rest<S: Real>(friction: &Friction<S>, slips: bool) -> Role<S> {
     let (zero, one) = (S::zero(), S::one());
     let rest = if slips {
-        one - part::<S>(SLIPS, ROUND_OFF)
+        one - part::<S>(AT_ITS_END, ROUND_OFF)
     } else {
         one
     };
@@ -248,9 +248,7 @@ where
     F: Formulation<S>,
     C: Coordinates<M>,
 {
-    let chosen = list
-        .each_ref()
-        .map(|tracked| !matches!(tracked.status.next, Next::Without));
+    let chosen = list.each_ref().map(|tracked| tracked.may_act());
     let columns = Columns::of(setting, list, &chosen)?;
     let offset = setting.accelerations(list, &free.accelerations);
     let motions: [Motion<S>; K] =

@@ -89,7 +89,10 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     /// #[derive(Mechanism)]
     /// #[mechanism(gravity = [0.0, 0.0, -9.81])]
     /// struct Bowling {
-    ///     #[body(free, mass = 7.0, inertia = [0.028, 0.028, 0.028], position = [0.0, 0.0, 0.1], velocity = [8.0, 0.0, 0.0])]
+    ///     #[body(
+    ///         free, mass = 7.0, inertia = [0.028, 0.028, 0.028],
+    ///         position = [0.0, 0.0, 0.1], velocity = [8.0, 0.0, 0.0]
+    ///     )]
     ///     ball: Body,
     /// }
     ///

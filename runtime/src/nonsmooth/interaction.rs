@@ -183,7 +183,8 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         Self::new(quantity, Law::Limits(Limits::between(bounds)))
     }
 
-    /// The radius (m) of a ball about the point of [`Interaction::contact`]; the radius (m) at which a hinge with [`Interaction::friction_by_load`] rubs, and the mean one of a thread.
+    /// The radius (m) of a ball about the point of [`Interaction::contact`]; the radius (m) at
+    /// which a hinge with [`Interaction::friction_by_load`] rubs, and the mean one of a thread.
     #[must_use]
     pub fn radius(mut self, radius: S) -> Self {
         match (&mut self.law, &mut self.quantity) {

@@ -20,8 +20,9 @@
 //! Friction by the load of its joint: `bearing.rs` reads the load, `loads.rs` has it as a function
 //! of efforts, `slipping.rs` solves for what slides, `capacities.rs` for what may stick.
 //!
-//! Contacts: `contact.rs` is what a user writes, `shape.rs` how shapes lie and move against a plane.
-//! Their friction: `cones.rs`, over `cone_problem.rs` and `tied.rs`, which know no mechanism.
+//! Contacts: `contact.rs` is what a user writes, `shape.rs` how shapes lie and move against what
+//! they touch (`place.rs`, `sphere.rs`). Their friction: `cones.rs`, over `cone_problem.rs` and
+//! `tied.rs`, which know no mechanism.
 //!
 //! The reasons are in `docs/decisions/027-interactions.md`, `032-friction-by-load.md` and
 //! `051-contacts-with-friction.md`.

@@ -2,11 +2,11 @@
 
 use crate::math::scalar::Real;
 use crate::nonsmooth::cone_problem::choices::{Choice, Friction, Role, Rough};
-use crate::nonsmooth::cone_problem::{ConeProblem, ConeSolution, NOISE, Outcome, length};
+use crate::nonsmooth::cone_problem::{ConeProblem, ConeSolution, Outcome, UNCERTAIN, length};
 use crate::nonsmooth::tied::{at, residuals};
 
 /// What holds may have left so many times the round-off of its residual.
-const RESTS: f64 = 1e4;
+const LEFT_OVER: f64 = 1e4;
 
 impl<S: Real, const K: usize> ConeProblem<S, K> {
     /// The efforts as a solution, if they are one.
@@ -17,7 +17,7 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
     ) -> Option<ConeSolution<S, K>> {
         let rates = residuals(&self.matrix, &self.offset, efforts);
         let sizes = self.sizes(efforts);
-        let noise = S::constant(NOISE) * S::EPSILON;
+        let noise = S::constant(UNCERTAIN) * S::EPSILON;
         let mut outcomes = [Outcome::Given; K];
         let mut idle: isize = 0;
         for index in 0..K {
@@ -30,7 +30,7 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
             } else {
                 S::zero()
             };
-            let rests = !moves || rate.abs() <= S::constant(RESTS) * of_rate;
+            let rests = !moves || rate.abs() <= S::constant(LEFT_OVER) * of_rate;
             let is_right = match (choices[index], self.roles[index]) {
                 (
                     Choice::Holds,
@@ -81,7 +81,7 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
         (efforts, rates, sizes): (&[S; K], &[S; K], &[S; K]),
         (outcomes, idle, of_effort): (&mut [Outcome<S>; K], &mut isize, S),
     ) -> bool {
-        let noise = S::constant(NOISE) * S::EPSILON;
+        let noise = S::constant(UNCERTAIN) * S::EPSILON;
         let (outcome, is_right) = match friction {
             Friction::Nothing => return true,
             Friction::Sticks => {
@@ -95,7 +95,7 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
                     if diagonal > S::zero() {
                         let of_rate = noise * at(sizes, index);
                         of_tangents = of_tangents.max(of_rate.quotient(diagonal));
-                        rests &= at(rates, index).abs() <= S::constant(RESTS) * of_rate;
+                        rests &= at(rates, index).abs() <= S::constant(LEFT_OVER) * of_rate;
                     }
                 }
                 let size = length(rough.read(efforts));
