@@ -14,9 +14,8 @@ use crate::mechanism::coordinates::{
 use crate::mechanism::kernels::{Mechanism, Pivot, Stabilisation, Terms, have_equations};
 use crate::mechanism::limits::Several;
 use crate::nonsmooth::columns::Setting;
-use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::loads::Reactions;
-use crate::nonsmooth::status::Tracked;
+use crate::nonsmooth::status::{Show, Tracked};
 use crate::nonsmooth::task::{Task, perform};
 use crate::state::vector::{Array, MovingState, StateParts};
 

@@ -8,9 +8,8 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::checked::check_all;
-use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::status::Tracked;
+use crate::nonsmooth::status::{Show, Tracked};
 use crate::nonsmooth::task::Task;
 use crate::state::vector::{Array, MovingState, Vector as _};
 

@@ -12,11 +12,11 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::{Nothing, Several, Visit};
 use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::described::renewed;
-use crate::nonsmooth::efforts::{Show, complete};
+use crate::nonsmooth::efforts::complete;
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::status::Tracked;
+use crate::nonsmooth::status::{Show, Tracked};
 use crate::state::sealed::Sealed;
 
 /// Further forces `A`, and `K` interactions with the limits of the description among them

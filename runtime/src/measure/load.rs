@@ -13,12 +13,11 @@ use crate::mechanism::handle::{BodyHandle, HasAngle, HasDisplacement, JointHandl
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::limits::{Nothing, Several};
 use crate::nonsmooth::columns::Setting;
-use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::quantity::{JointQuantity, Quantity};
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::status::Tracked;
+use crate::nonsmooth::status::{Show, Tracked};
 use crate::state::sealed::Sealed;
 use crate::state::vector::{Array, StateParts};
 

@@ -12,10 +12,10 @@ use crate::nonsmooth::cones::{self, are_rough};
 use crate::nonsmooth::law::Friction;
 use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{AT_BOUND, ROUND_OFF, part};
 use crate::nonsmooth::status::{Next, Tracked};
-use crate::nonsmooth::switch::Motion;
 use crate::state::vector::Array as _;
 
 /// Accelerations that are none, in `EPSILON` of what efforts bring about.

@@ -13,13 +13,12 @@ use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::cone_problem::{
     ConeProblem, ConeSolution, NoSolution, Outcome, Role, Rough, length,
 };
-use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::law::Friction;
 use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{AT_BOUND, AT_REST, ROUND_OFF, part};
-use crate::nonsmooth::status::{Exerted, Next, Tracked};
-use crate::nonsmooth::switch::Motion;
+use crate::nonsmooth::status::{Exerted, Next, Show, Tracked};
 use crate::nonsmooth::tied::{Tied, at, residuals};
 
 /// What was found at the end of its sticking slips, to this part of what it can bear.

@@ -13,11 +13,8 @@ use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::slipping::{Refusal, Slipping, held};
-use crate::nonsmooth::status::{Exerted, Tracked};
+use crate::nonsmooth::status::{Exerted, Show, Tracked};
 use crate::state::vector::Array;
-
-/// What is done with what all interactions exert, in their order.
-pub(crate) type Show<'s, S> = dyn FnMut(&[Exerted<S>]) + 's;
 
 /// Rounds of correction. The second takes what round-off and an iterated formulation leave, so that
 /// what is held does not creep.

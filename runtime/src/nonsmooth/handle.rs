@@ -7,11 +7,10 @@ use crate::error::{Fault, ReadingFault, StartFault};
 use crate::math::scalar::Real;
 use crate::math::without_bounds::copied;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::law::Law;
 use crate::nonsmooth::quantity::{JointQuantity, JointReading, Quantity};
-use crate::nonsmooth::status::Tracked;
+use crate::nonsmooth::status::{Show, Tracked};
 
 /// An interaction of a run of the mechanism `M`: one of a list, by [`Interaction::handles`], or the
 /// limits of a joint, by [`JointQuantity::limits`].

@@ -44,6 +44,7 @@ pub(crate) mod interaction;
 mod law;
 pub(crate) mod loads;
 pub(crate) mod mode;
+mod motion;
 pub(crate) mod place;
 pub(crate) mod quantity;
 mod remembered;

@@ -48,6 +48,9 @@ pub struct Exerted<S> {
     pub(crate) size: S,
 }
 
+/// What is done with what all interactions exert, in their order.
+pub(crate) type Show<'s, S> = dyn FnMut(&[Exerted<S>]) + 's;
+
 /// An interaction in a run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Status<S> {

@@ -11,8 +11,9 @@ use crate::nonsmooth::cone_problem::length;
 use crate::nonsmooth::cones::{self, are_rough, tangents_of};
 use crate::nonsmooth::law::{Friction, Limits, pushes};
 use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::sizes::{AT_REST, OF_TIME, ROUND_OFF, part};
+use crate::nonsmooth::sizes::OF_TIME;
 use crate::nonsmooth::status::{Impact, Next, Status, Tracked};
 use crate::state::vector::{Array, StateParts as _};
 
@@ -21,42 +22,6 @@ const ENDED: f64 = 1e-9;
 
 /// Energy that impulses bring, of what they take and bring in all, beyond which it is no round-off.
 const GAINS: f64 = 1e-9;
-
-/// How a quantity moves at an instant.
-pub(super) struct Motion<S> {
-    pub(super) rate: S,
-    /// The sum of the sizes of the terms of the rate; the largest one so far. What is held has that
-    /// of its effort too: a shaft that never turned has rates of nothing but round-off.
-    pub(super) size: S,
-}
-
-impl<S: Real> Motion<S> {
-    pub(super) fn of<M: Mechanism>(tracked: &mut Tracked<S, M>, scene: &Scene<'_, S, M>) -> Self {
-        let quantity = &tracked.interaction.quantity;
-        let velocities = scene.bodies.velocities().as_slice();
-        let mut size = S::zero();
-        quantity.each_part(scene, |place, part| {
-            let velocity = velocities.get(place).copied().unwrap_or(S::zero());
-            size = size + (part * velocity).abs();
-        });
-        let status = &mut tracked.status;
-        status.largest = status.largest.max(size);
-        let kept_from = if status.mode.holds() {
-            status.kept_from
-        } else {
-            S::zero()
-        };
-        Self {
-            rate: quantity.rate(scene),
-            size: status.largest.max(kept_from),
-        }
-    }
-
-    /// A rate up to this is none.
-    fn none(&self) -> S {
-        part::<S>(AT_REST, ROUND_OFF) * self.size
-    }
-}
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// What comes after an instant: of a quantity on a limit or engaged, that rests there or goes

@@ -17,11 +17,10 @@ use crate::mechanism::handle::{
 };
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
-use crate::nonsmooth::efforts::Show;
 use crate::nonsmooth::handle::{InteractionHandle, effort_of, named};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::status::{Impact, Tracked};
+use crate::nonsmooth::status::{Impact, Show, Tracked};
 use crate::state::vector::StateParts;
 
 /// A state at a reporting time: a [`View`], and what takes an evaluation.

@@ -1,0 +1,270 @@
+//! The search for a solution among all choices of modes.
+
+use crate::math::scalar::Real;
+use crate::nonsmooth::cone_problem::choices::{Choice, Friction, Role, Rough};
+use crate::nonsmooth::cone_problem::{ConeProblem, ConeSolution, NoSolution, UNCERTAIN, length};
+use crate::nonsmooth::tied::{Lu, Tied, floors, residuals};
+
+/// Choices of modes at the most.
+const CHOICES: usize = 20_000;
+
+/// Residuals that differ by more than this part of their terms are of different motions.
+const DIFFERENT: f64 = 1e-6;
+
+/// Steps of Newton's method for directions of slip.
+const STEPS: usize = 40;
+
+/// Directions from which it starts.
+const STARTS: usize = 8;
+
+/// What is solved for under a choice.
+struct Guess<S, const K: usize> {
+    tied: Tied<S, K>,
+    given: [S; K],
+}
+
+impl<S: Real, const K: usize> ConeProblem<S, K> {
+    /// The solution, if all there are have the same motion.
+    pub(in crate::nonsmooth) fn solved(&self) -> Result<ConeSolution<S, K>, NoSolution> {
+        let mut total: usize = 1;
+        for role in &self.roles {
+            total = total.saturating_mul(role.choices());
+        }
+        if total > CHOICES {
+            return Err(NoSolution::TooMany);
+        }
+        let mut found: Option<ConeSolution<S, K>> = None;
+        for number in 0..total {
+            let Some(next) = self.under(self.numbered(number)) else {
+                continue;
+            };
+            match &found {
+                None => found = Some(next),
+                Some(first) if self.differ(first, &next) => return Err(NoSolution::Several),
+                Some(first) if next.idle < first.idle => found = Some(next),
+                Some(_) => {}
+            }
+        }
+        found.ok_or(NoSolution::None)
+    }
+
+    /// The choices of a number: what holds most comes first.
+    fn numbered(&self, mut number: usize) -> [Choice<S>; K] {
+        self.roles.each_ref().map(|role| {
+            let choices = role.choices();
+            let choice = role.choice(number.checked_rem(choices).unwrap_or(0));
+            number = number.checked_div(choices).unwrap_or(0);
+            choice
+        })
+    }
+
+    fn differ(&self, a: &ConeSolution<S, K>, b: &ConeSolution<S, K>) -> bool {
+        let sizes = [self.sizes(&a.efforts), self.sizes(&b.efforts)];
+        (0..K).any(|index| {
+            let [first, second] = sizes.each_ref().map(|sizes| sizes[index]);
+            let difference = (a.residuals[index] - b.residuals[index]).abs();
+            difference > S::constant(DIFFERENT) * first.max(second)
+        })
+    }
+
+    /// The solution under a choice, if it is one.
+    fn under(&self, mut choices: [Choice<S>; K]) -> Option<ConeSolution<S, K>> {
+        let seeks = |choice: &Choice<S>| matches!(choice, Choice::On(_, Friction::Seeks));
+        if !choices.iter().any(seeks) {
+            return self.admissible(&choices, &self.efforts(&choices)?);
+        }
+        let sought = choices.each_ref().map(seeks);
+        // The slip that there would be without this friction: exact where it yields evenly.
+        let mut smooth = choices;
+        for (choice, &sought) in smooth.iter_mut().zip(&sought) {
+            if let (Choice::On(bears, _), true) = (*choice, sought) {
+                *choice = Choice::On(bears, Friction::Nothing);
+            }
+        }
+        let free = residuals(&self.matrix, &self.offset, &self.efforts(&smooth)?);
+        let mut turned = 0;
+        while turned < STARTS {
+            let angle = S::constant(turned as f64 * core::f64::consts::TAU / STARTS as f64);
+            let (sine, cosine) = (angle.sin(), angle.cos());
+            for (index, choice) in choices.iter_mut().enumerate() {
+                if let (Choice::On(_, friction), true, Role::Pushes { rough, .. }) =
+                    (choice, sought[index], self.roles[index])
+                {
+                    let [x, y] = rough.map_or([S::zero(); 2], |rough| rough.read(&free));
+                    let start = [cosine * x - sine * y, sine * x + cosine * y];
+                    *friction = Friction::Begins(unit(start)?);
+                }
+            }
+            if let Some(efforts) = self.directed(&mut choices, &sought)
+                && let Some(solution) = self.admissible(&choices, &efforts)
+            {
+                return Some(solution);
+            }
+            turned += 1;
+        }
+        None
+    }
+
+    /// What is solved for, and the efforts that are known.
+    fn guess(&self, choices: &[Choice<S>; K]) -> Guess<S, K> {
+        let mut guess = Guess {
+            tied: Tied::nothing(),
+            given: [S::zero(); K],
+        };
+        for (index, choice) in choices.iter().enumerate() {
+            match (*choice, self.roles[index]) {
+                (Choice::Given(effort) | Choice::Slides(_, effort), _) => {
+                    guess.given[index] = effort;
+                }
+                (Choice::Holds, _) => guess.tied.holds[index] = true,
+                (Choice::On(bears, friction), Role::Pushes { sign, least, rough }) => {
+                    guess.tied.holds[index] = bears;
+                    if !bears {
+                        guess.given[index] = sign * least;
+                    }
+                    if let Some(rough) = rough {
+                        guess.rub(index, &rough, friction);
+                    }
+                }
+                _ => {}
+            }
+        }
+        guess
+    }
+
+    /// All efforts under a choice.
+    fn efforts(&self, choices: &[Choice<S>; K]) -> Option<[S; K]> {
+        let Guess { tied, given } = self.guess(choices);
+        let mut sticking = [None; K];
+        for (index, choice) in choices.iter().enumerate() {
+            let Role::Pushes {
+                rough: Some(rough), ..
+            } = self.roles[index]
+            else {
+                continue;
+            };
+            if let Choice::On(_, Friction::Sticks) = choice {
+                for tangent in rough.tangents.into_iter().flatten() {
+                    if let Some(place) = sticking.get_mut(tangent) {
+                        *place = Some((index, rough.at_rest));
+                    }
+                }
+            }
+        }
+        let efforts = tied.shared_beside(&self.matrix, (&self.offset, &given), &sticking);
+        efforts
+            .iter()
+            .all(|effort| effort.is_finite())
+            .then_some(efforts)
+    }
+
+    /// The efforts where slip begins in directions that are looked for by Newton's method, so that
+    /// each is that of its residual.
+    fn directed(&self, choices: &mut [Choice<S>; K], sought: &[bool; K]) -> Option<[S; K]> {
+        for _ in 0..STEPS {
+            let efforts = self.efforts(choices)?;
+            let rates = residuals(&self.matrix, &self.offset, &efforts);
+            let sizes = self.sizes(&efforts);
+            let Guess { tied, .. } = self.guess(choices);
+            let [_, floor] = floors();
+            let factors = tied.factors(&self.matrix, &[S::one(); K], floor);
+            let mut jacobian = [[S::zero(); K]; K];
+            let mut turning = [S::zero(); K];
+            let mut is_found = true;
+            for index in 0..K {
+                jacobian[index][index] = S::one();
+                let Some((rough, direction)) = self.beginning(choices, sought, index) else {
+                    continue;
+                };
+                let [x, y] = direction;
+                let rate = rough.read(&rates);
+                turning[index] = x * rate[1] - y * rate[0];
+                let size = rough.read(&sizes);
+                let noise = S::constant(UNCERTAIN) * S::EPSILON * (size[0] + size[1]);
+                is_found &= turning[index].abs() <= noise;
+                // What a turn of the direction does to all rates.
+                let bears = rough.coefficient * efforts[index];
+                let across = [y * bears, -(x * bears)];
+                let mut turned = tied;
+                for (tangent, by) in rough.tangents.into_iter().zip(across) {
+                    if let Some(beside) = tangent.and_then(|index| turned.beside.get_mut(index)) {
+                        *beside = by;
+                    }
+                }
+                let mut change = [S::zero(); K];
+                let nothing = [S::zero(); K];
+                turned.complete((&self.matrix, &factors), &nothing, &mut change);
+                let faster = residuals(&self.matrix, &nothing, &change);
+                for (row, of_row) in jacobian.iter_mut().enumerate() {
+                    if let Some((rough, [x, y])) = self.beginning(choices, sought, row) {
+                        let faster = rough.read(&faster);
+                        of_row[index] = x * faster[1] - y * faster[0];
+                    }
+                }
+                jacobian[index][index] = jacobian[index][index] - (x * rate[0] + y * rate[1]);
+            }
+            if is_found {
+                return Some(efforts);
+            }
+            let step = Lu::of(jacobian, [S::one(); K]).solve(turning);
+            for index in 0..K {
+                if let (Some((_, [x, y])), Choice::On(bears, _)) =
+                    (self.beginning(choices, sought, index), choices[index])
+                {
+                    let by = (-step[index]).min(S::one()).max(-S::one());
+                    let next = unit([x - by * y, y + by * x])?;
+                    choices[index] = Choice::On(bears, Friction::Begins(next));
+                }
+            }
+        }
+        None
+    }
+
+    /// The friction of a contact whose direction of slip is looked for.
+    fn beginning(
+        &self,
+        choices: &[Choice<S>; K],
+        sought: &[bool; K],
+        index: usize,
+    ) -> Option<(Rough<S>, [S; 2])> {
+        match (choices[index], self.roles[index]) {
+            (
+                Choice::On(_, Friction::Begins(direction)),
+                Role::Pushes {
+                    rough: Some(rough), ..
+                },
+            ) if sought[index] => Some((rough, direction)),
+            _ => None,
+        }
+    }
+}
+
+impl<S: Real, const K: usize> Guess<S, K> {
+    /// The friction of the contact at an index.
+    fn rub(&mut self, index: usize, rough: &Rough<S>, friction: Friction<S>) {
+        let directions = match friction {
+            Friction::Nothing | Friction::Seeks => return,
+            Friction::Sticks => None,
+            Friction::Slips(direction) | Friction::Begins(direction) => Some(direction),
+        };
+        for (place, tangent) in rough.tangents.into_iter().enumerate() {
+            let Some(tangent) = tangent else {
+                continue;
+            };
+            if let Some([x, y]) = directions {
+                let component = if place == 0 { x } else { y };
+                if let Some(follows) = self.tied.follows.get_mut(tangent) {
+                    *follows = Some((index, -(rough.coefficient * component)));
+                }
+            } else if let Some(holds) = self.tied.holds.get_mut(tangent) {
+                *holds = true;
+            }
+        }
+    }
+}
+
+/// A direction, of length 1; `None` where there is none.
+fn unit<S: Real>([x, y]: [S; 2]) -> Option<[S; 2]> {
+    let size = length([x, y]);
+    (size > S::smallest()).then(|| [x.quotient(size), y.quotient(size)])
+}
