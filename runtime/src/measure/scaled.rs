@@ -108,7 +108,9 @@ where
         let (place, tracked) = named(list, self.interaction)?;
         let is_finite = |tracked: &Tracked<S, M>| {
             let friction = tracked.interaction.law.friction();
-            friction.is_some_and(|friction| friction.at_rest().is_finite())
+            // Of a contact the first direction has the coefficient of both.
+            let is_first = tracked.tangent().is_none_or(|tangent| tangent.behind == 1);
+            is_first && friction.is_some_and(|friction| friction.at_rest().is_finite())
         };
         if !is_finite(tracked) {
             return Err(Fault::Start(StartFault::MisplacedSetting {

@@ -80,7 +80,8 @@ where
 
     /// Multiplies the capacity of dry friction, of a brake or of a clutch by a function of the
     /// motion and of the inputs, and the capacity of its [`Interaction::stiction`] likewise. Of
-    /// friction by load it multiplies the coefficients. It is said behind
+    /// friction by load it multiplies the coefficients, and of a contact that of both directions,
+    /// by the handle of the first one. It is said behind
     /// [`Simulation::interactions`]. Several functions of one interaction are multiplied.
     ///
     /// Modes follow the capacity of the same instant: what sticks slides from where the capacity
@@ -119,8 +120,8 @@ where
     /// # Errors of the run
     /// - [`ModeFault::CapacityFactor`](crate::error::ModeFault::CapacityFactor) where the factor is
     ///   negative or not finite.
-    /// - [`StartFault::MisplacedSetting`](crate::error::StartFault::MisplacedSetting) of limits and
-    ///   of dogs.
+    /// - [`StartFault::MisplacedSetting`](crate::error::StartFault::MisplacedSetting) of limits, of
+    ///   dogs, and of the second direction of a contact.
     /// - [`ReadingFault::NoSuchInteraction`](crate::error::ReadingFault::NoSuchInteraction).
     #[must_use]
     pub fn capacity_factor<G>(

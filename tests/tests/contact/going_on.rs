@@ -87,3 +87,32 @@ fn single_precision_rolls_too() {
     let view = bowling.view(2.0, &report.state).expect("a view");
     assert!((view.velocity(h.ball).x - 40.0 / 7.0).abs() < 1e-4);
 }
+
+/// A wet floor: the coefficient of a contact is a function of the motion.
+#[test]
+fn a_factor_of_friction_is_that_of_both_directions() {
+    let (bowling, h) = (Bowling::default(), Bowling::HANDLES);
+    let contact = Interaction::contact(h.ball, floor())
+        .radius(0.1)
+        .with_friction(0.4);
+    let [_, along, across] = Interaction::handles(&contact);
+    let thrown = start([0.0, 0.0, 0.1], [4.0, 3.0, 0.0], [0.0; 3]);
+    let simulation = bowling
+        .simulation(StandardLagrange, DormandPrince::new(tight()))
+        .initial_state(thrown)
+        .interactions(contact);
+    let rolls = 2.0 * 5.0 / (7.0 * 0.1 * 9.81);
+    simulation
+        .clone()
+        .capacity_factor(along, |_, _| 0.25)
+        .run(0.0..=2.0, every(0.1), |sample| {
+            let sticks = sample.mode(along) == Ok(InteractionMode::Sticking);
+            let after = sample.time() - rolls;
+            assert!(after.abs() < 1e-9 || sticks == (after > 0.0), "{after}");
+        })
+        .expect("it rolls");
+    simulation
+        .capacity_factor(across, |_, _| 0.25)
+        .run(0.0..=2.0, every(0.1), |_| ())
+        .expect_err("the first direction has it");
+}
