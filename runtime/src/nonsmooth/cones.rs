@@ -6,6 +6,7 @@
 use crate::error::{Fault, ModeFault, StepFault};
 use crate::formulation::{Formulation, Solution};
 use crate::math::scalar::Real;
+use crate::math::vec3::{plus, times};
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::BoxProblem;
@@ -16,6 +17,7 @@ use crate::nonsmooth::cone_problem::{
 use crate::nonsmooth::law::Friction;
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
+use crate::nonsmooth::place::dot;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{AT_BOUND, AT_REST, ROUND_OFF, part};
 use crate::nonsmooth::status::{Exerted, Next, Show, Tracked};
@@ -23,6 +25,14 @@ use crate::nonsmooth::tied::{Tied, at, residuals};
 
 /// What was found at the end of its sticking slips, to this part of what it can bear.
 const AT_ITS_END: f64 = 1e-10;
+
+/// The cosine below which slip has passed its zero, and not turned.
+const OPPOSITE: f64 = -0.9;
+
+/// Slip that begins has the direction of its acceleration up to this part of what it is the sum of:
+/// the error of its velocity goes with the power 3/2 of that, and the steps that follow its
+/// direction explicitly with the power -1/2.
+const BEGUN: f64 = 1e-6;
 
 /// What is as near to what it can bear as this is found there together with another.
 const TOGETHER: f64 = 1e-9;
@@ -56,31 +66,71 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         index.checked_sub(self.tangent()?.behind)
     }
 
-    /// The slip (m/s) at its contact, along the directions in which that has friction.
-    fn slip(&self, scene: &Scene<'_, S, M>) -> [S; 2] {
-        let [along, across] = self.interaction.quantity.slip(scene);
+    /// The slip at its contact, along the directions in which that has friction.
+    pub(super) fn slip(&self, scene: &Scene<'_, S, M>) -> Slip<S> {
         let has_both = self.tangent().is_some_and(|tangent| tangent.has_both);
-        [along, if has_both { across } else { S::zero() }]
+        let Some(touch) = self.interaction.quantity.touch(scene) else {
+            return Slip {
+                components: [S::zero(); 2],
+                directions: [[S::zero(); 3]; 2],
+                vector: [S::zero(); 3],
+            };
+        };
+        let [along, across] = touch.slip;
+        let components = [along, if has_both { across } else { S::zero() }];
+        Slip {
+            components,
+            directions: touch.directions,
+            vector: combined(&touch.directions, components),
+        }
     }
 
-    /// The direction of the slip at its contact. Beyond its zero, as a step that ends its mode
-    /// looks there, it is the one until then: so the friction of a step goes on smoothly.
-    pub(crate) fn direction_of_slip(&self, scene: &Scene<'_, S, M>) -> [S; 2] {
-        let known = self.status.slip;
+    /// The direction of the slip at its contact, along the directions of its surface. Beyond its
+    /// zero, as a step that ends its mode looks there, it is the one until then: so the friction of
+    /// a step goes on smoothly. Slip that only turns does not come near the opposite direction.
+    fn direction_of_slip(&self, scene: &Scene<'_, S, M>) -> [S; 2] {
         if self.mode() != InteractionMode::Slipping {
-            return known;
+            return [S::zero(); 2];
         }
-        let [along, across] = self.slip(scene);
+        let slip = self.slip(scene);
+        let [along, across] = slip.components;
         let size = length([along, across]);
+        let known = self.status.slip;
         let none = part::<S>(AT_REST, ROUND_OFF) * self.status.largest;
         if size <= none.max(S::smallest()) {
-            return known;
+            let [x, y] = slip.directions.each_ref().map(|way| dot(way, &known));
+            let size = length([x, y]).max(S::smallest());
+            return [x.quotient(size), y.quotient(size)];
         }
-        let [x, y] = known;
-        let is_beyond = x.fused(along, y * across) < S::zero();
-        let divisor = if is_beyond { -size } else { size };
+        let is_opposite = dot(&known, &slip.vector) < S::constant(OPPOSITE) * size;
+        let divisor = if is_opposite { -size } else { size };
         [along.quotient(divisor), across.quotient(divisor)]
     }
+
+    /// The direction (global) of its slip, and whether that is beyond its beginning.
+    pub(crate) fn slip_at(&self, scene: &Scene<'_, S, M>) -> ([S; 3], bool) {
+        if self.mode() != InteractionMode::Slipping {
+            return (self.status.slip, false);
+        }
+        let direction = self.direction_of_slip(scene);
+        let slip = self.slip(scene);
+        let begun = length(slip.components) > S::constant(BEGUN) * self.status.largest;
+        (combined(&slip.directions, direction), begun)
+    }
+}
+
+/// Slip at a contact.
+pub(super) struct Slip<S> {
+    /// Along both directions of the surface (m/s).
+    components: [S; 2],
+    directions: [[S; 3]; 2],
+    /// The same (global).
+    pub(super) vector: [S; 3],
+}
+
+/// A vector along two directions.
+fn combined<S: Real>([along, across]: &[[S; 3]; 2], [x, y]: [S; 2]) -> [S; 3] {
+    plus(&times(along, x), &times(across, y))
 }
 
 /// The friction of a contact, by the modes that may follow.
@@ -254,7 +304,7 @@ where
         setting.here(|scene| list.each_mut().map(|tracked| Motion::of(tracked, scene)));
     let slips = setting.here(|scene| {
         list.each_ref().map(|tracked| {
-            let [x, y] = tracked.slip(scene);
+            let [x, y] = tracked.slip(scene).components;
             let size = length([x, y]).max(S::smallest());
             [x.quotient(size), y.quotient(size)]
         })
@@ -288,8 +338,10 @@ where
             }
             (_, Next::On(_)) => InteractionMode::Free,
             (Outcome::Holds, _) => InteractionMode::Sticking,
-            (Outcome::Slips(slip), _) => {
-                tracked.status.slip = slip;
+            (Outcome::Slips(slip), next) => {
+                let directions = setting.here(|scene| tracked.slip(scene).directions);
+                tracked.status.slip = combined(&directions, slip);
+                tracked.status.begins = !matches!(next, Next::Moving(_));
                 InteractionMode::Slipping
             }
             (Outcome::Slides(sign), _) => slides(sign),
@@ -314,6 +366,61 @@ where
         }
     }
     Ok(())
+}
+
+/// Makes friction that slips a multiple of the effort of its contact, by the direction of its slip.
+fn follow<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    slips: &[[S; 2]; K],
+    tied: &mut Tied<S, K>,
+) {
+    for index in 0..K {
+        let tracked = &list[index];
+        let (Some(contact), InteractionMode::Slipping) = (tracked.contact(index), tracked.mode())
+        else {
+            continue;
+        };
+        let [first, second] = tangents_of(list, contact);
+        let coefficient = first.and_then(|first| Some(list.get(first)?.friction()?.capacity));
+        let slip = first.and_then(|first| slips.get(first)).copied();
+        let [along, across] = slip.unwrap_or([S::zero(); 2]);
+        let component = if Some(index) == second { across } else { along };
+        let factor = -(coefficient.unwrap_or(S::zero()) * component);
+        tied.follows[index] = Some((contact, factor));
+    }
+}
+
+/// What acts at every unknown in the modes that there are.
+fn roles_in_modes<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    slips: &[[S; 2]; K],
+) -> [Role<S>; K] {
+    core::array::from_fn(|index| {
+        let tracked = &list[index];
+        let holds = tracked.mode().holds();
+        if tracked.tangent().is_some() {
+            return Role::Tangent;
+        }
+        if !holds {
+            return Role::Given(S::zero());
+        }
+        let rough = rough(list, index, None).map(|rough| {
+            let first = rough.tangents[0];
+            let slips_now = first
+                .and_then(|first| list.get(first))
+                .is_some_and(|first| first.mode() == InteractionMode::Slipping);
+            let slip = first.and_then(|first| slips.get(first)).copied();
+            Rough {
+                slip: slip.filter(|_| slips_now),
+                ..rough
+            }
+        });
+        Role::Pushes {
+            sign: S::one(),
+            least: S::zero(),
+            rough,
+        }
+    })
 }
 
 /// The contact and the coefficient of all friction that sticks.
@@ -382,27 +489,27 @@ where
         list.each_ref().map(direction)
     });
     let mut chosen = tied.holds;
-    for index in 0..K {
-        let tracked = &list[index];
-        let (Some(contact), InteractionMode::Slipping) = (tracked.contact(index), tracked.mode())
-        else {
-            continue;
-        };
-        let [first, second] = tangents_of(list, contact);
-        let coefficient = first.and_then(|first| Some(list.get(first)?.friction()?.capacity));
-        let slip = first.and_then(|first| slips.get(first)).copied();
-        let [along, across] = slip.unwrap_or([S::zero(); 2]);
-        let component = if Some(index) == second { across } else { along };
-        let factor = -(coefficient.unwrap_or(S::zero()) * component);
-        tied.follows[index] = Some((contact, factor));
-        chosen[index] = true;
+    for (chosen, tracked) in chosen.iter_mut().zip(list) {
+        *chosen |= tracked.mode() == InteractionMode::Slipping;
     }
+    follow(list, &slips, &mut tied);
     let mut efforts = [S::zero(); K];
     if chosen.contains(&true) {
         let columns = Columns::of(setting, list, &chosen)?;
         let sticking = sticking(list);
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
             let accelerations = setting.accelerations(list, &solution.accelerations);
+            if round == 0 && list.iter().any(Tracked::begins) {
+                let problem = ConeProblem {
+                    matrix: columns.delassus,
+                    offset: accelerations,
+                    roles: roles_in_modes(list, &slips),
+                };
+                let begins = list.each_ref().map(Tracked::begins);
+                if let Some(directions) = problem.directions(&begins) {
+                    follow(list, &directions, &mut tied);
+                }
+            }
             let change = tied.shared(&columns.delassus, &accelerations, &sticking);
             columns.add_to(&change, solution);
             for (effort, change) in efforts.iter_mut().zip(change) {

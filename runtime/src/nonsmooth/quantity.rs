@@ -10,7 +10,7 @@ use crate::mechanism::report::BodyKind;
 use crate::mechanism::turns;
 use crate::nonsmooth::place::At;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::shape::{Direction, Shape, Surface};
+use crate::nonsmooth::shape::{Direction, Shape, Surface, Touch};
 use crate::state::vector::{Array, StateParts};
 
 /// The angle (rad) or the displacement (m) of a joint, by [`JointHandle::angle`] and
@@ -167,13 +167,13 @@ impl<S: Scalar> Quantity<S> {
         }
     }
 
-    /// The slip (m/s) at a contact along both directions of its surface; zero of what is none.
-    pub(super) fn slip<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> [S; 2] {
+    /// What touches at a contact; `None` of what is none.
+    pub(super) fn touch<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> Option<Touch<S>> {
         match *self {
             Self::Gap(at, ref surface, ref shape) | Self::Slip(at, ref surface, ref shape, _) => {
-                scene.touch(at, surface, shape).slip
+                Some(scene.touch(at, surface, shape))
             }
-            _ => [S::zero(); 2],
+            _ => None,
         }
     }
 

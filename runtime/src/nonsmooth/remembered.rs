@@ -42,10 +42,12 @@ impl<S: Real> Status<S> {
         memory.flag(&mut self.is_found);
         memory.flag(&mut self.rests);
         memory.flag(&mut self.is_saturated);
-        let [along, across] = &mut self.slip;
+        memory.flag(&mut self.begins);
+        let [x, y, z] = &mut self.slip;
         let numbers = [
-            along,
-            across,
+            x,
+            y,
+            z,
             &mut self.exerted.size,
             &mut self.held,
             &mut self.exerted.effort,

@@ -43,6 +43,8 @@ pub(crate) struct Touch<S> {
     /// The velocity (m/s) of the material that is there against that of the surface, along both
     /// directions.
     pub(super) slip: [S; 2],
+    /// Both directions (global).
+    pub(super) directions: [[S; 3]; 2],
 }
 
 impl<S> Surface<S> {
@@ -208,6 +210,7 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
             gap: dot(&normal, &way) - beyond,
             rate: dot(&normal, &relative),
             slip: [dot(&along, &relative), dot(&across, &relative)],
+            directions: [along, across],
         }
     }
 

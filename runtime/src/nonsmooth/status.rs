@@ -7,6 +7,7 @@ use crate::nonsmooth::bearing::Bearing;
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::law::{Friction, Law, Tangent};
 use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::place::dot;
 use crate::nonsmooth::scene::Scene;
 
 /// An impact or another impulse on a quantity.
@@ -62,11 +63,14 @@ pub(crate) struct Status<S> {
     pub(crate) factor: S,
     /// The value that is held.
     pub(crate) held: S,
-    /// The direction of the slip at a contact, of length 1, where its mode began or was last
-    /// found to go on.
-    pub(crate) slip: [S; 2],
-    /// The same at the last reading.
-    pub(crate) last_slip: [S; 2],
+    /// The direction (global) of the slip at a contact, of length 1, where its mode began or was
+    /// last found to go on.
+    pub(crate) slip: [S; 3],
+    /// The same at the last reading, and whether the slip is beyond its beginning there.
+    pub(crate) last_slip: [S; 3],
+    pub(crate) has_begun: bool,
+    /// The slip has begun from rest, and is so small that its acceleration tells its direction.
+    pub(crate) begins: bool,
     /// What it exerted at the last look into a step, or where its mode began.
     pub(crate) exerted: Exerted<S>,
     /// The effort with which the mode began.
@@ -150,6 +154,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         self.interaction.law.tangent()
     }
 
+    /// Whether it is slip that begins.
+    pub(super) fn begins(&self) -> bool {
+        self.mode() == InteractionMode::Slipping && self.status.begins
+    }
+
     /// The mode.
     pub(crate) fn mode(&self) -> InteractionMode {
         self.status.mode
@@ -182,10 +191,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             return match self.mode() {
                 _ if tangent.behind > 1 => never,
                 InteractionMode::Sticking => capacity - size,
-                InteractionMode::Slipping => {
-                    let ([x, y], [along, across]) = (self.status.slip, quantity.slip(scene));
-                    x.fused(along, y * across)
-                }
+                InteractionMode::Slipping => dot(&self.status.slip, &self.slip(scene).vector),
                 _ => never,
             };
         }
@@ -229,8 +235,10 @@ impl<S: Real> Status<S> {
             is_asked: false,
             factor: S::one(),
             held: S::zero(),
-            slip: [S::zero(); 2],
-            last_slip: [S::zero(); 2],
+            slip: [S::zero(); 3],
+            last_slip: [S::zero(); 3],
+            has_begun: false,
+            begins: false,
             exerted: Exerted::nothing(),
             share: S::zero(),
             since: S::zero(),
@@ -321,6 +329,7 @@ impl<S: Real> Status<S> {
     pub(crate) fn go_on(&mut self) {
         if self.mode == InteractionMode::Slipping {
             self.slip = self.last_slip;
+            self.begins &= !self.has_begun;
         }
         self.has_left |= self.reading > self.band;
         if self.mode == InteractionMode::Free && self.reading.is_finite() {

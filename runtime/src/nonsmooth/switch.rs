@@ -212,20 +212,20 @@ fn stick<S: Real, M: Mechanism, const K: usize>(
     list: &[Tracked<S, M>; K],
     all: &mut [Struck<S>; K],
 ) {
+    // Slip that a step has led to its zero ends, and so does what ends together with it.
+    let found = list
+        .iter()
+        .any(|tracked| tracked.tangent().is_some() && tracked.status.is_found);
     for contact in 0..K {
         let [Some(first), second] = tangents_of(list, contact) else {
             continue;
         };
         let closed = all[contact].rests;
-        let [mut rests, mut found] = [true, false];
+        let mut rests = true;
         let (mut slip, mut size) = ([S::zero(); 2], S::zero());
         for (place, index) in [Some(first), second].into_iter().enumerate() {
-            if let (Some(one), Some(tracked)) = (
-                index.and_then(|index| all.get(index)),
-                index.and_then(|index| list.get(index)),
-            ) {
+            if let Some(one) = index.and_then(|index| all.get(index)) {
                 rests &= one.rests;
-                found |= tracked.status.is_found;
                 slip[usize::from(place > 0)] = one.motion.rate;
                 size = size.max(one.motion.size);
             }
@@ -448,8 +448,9 @@ where
     let half = S::constant(0.5);
     let (mut lost, mut terms) = (S::zero(), S::zero());
     for one in all {
-        let part = half * one.impulse * (one.before + one.motion.rate);
-        (lost, terms) = (lost - part, terms + part.abs());
+        let (before, after) = (one.before, one.motion.rate);
+        lost = lost - half * one.impulse * (before + after);
+        terms = terms + half * (one.impulse * (before.abs() + after.abs())).abs();
     }
     if are_rough(list) && lost < -(S::constant(GAINS) * terms) {
         let gains = all.iter().position(|one| one.impulse != S::zero());

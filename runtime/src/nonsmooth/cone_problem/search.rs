@@ -48,6 +48,54 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
         found.ok_or(NoSolution::None)
     }
 
+    /// The directions of slip where what there is holds or slips, at the friction of each contact.
+    /// Those of contacts that are marked there are such that each is that of its residual, from
+    /// the one that they have.
+    pub(in crate::nonsmooth) fn directions(&self, begins: &[bool; K]) -> Option<[[S; 2]; K]> {
+        let mut sought = [false; K];
+        let mut choices = [Choice::Tangent; K];
+        for (index, role) in self.roles.iter().enumerate() {
+            choices[index] = match *role {
+                Role::Given(effort) => Choice::Given(effort),
+                Role::Tangent => Choice::Tangent,
+                Role::Within { .. } => Choice::Holds,
+                Role::Pushes { rough: None, .. } => Choice::On(true, Friction::Nothing),
+                Role::Pushes {
+                    rough: Some(rough), ..
+                } => {
+                    let first = rough.tangents[0].and_then(|first| begins.get(first));
+                    sought[index] = first == Some(&true) && rough.slip.is_some();
+                    Choice::On(
+                        true,
+                        match rough.slip {
+                            None => Friction::Sticks,
+                            Some(slip) if sought[index] => Friction::Begins(slip),
+                            Some(slip) => Friction::Slips(slip),
+                        },
+                    )
+                }
+            };
+        }
+        self.directed(&mut choices, &sought)?;
+        let mut directions = [[S::zero(); 2]; K];
+        for (index, choice) in choices.iter().enumerate() {
+            let Role::Pushes {
+                rough: Some(rough), ..
+            } = self.roles[index]
+            else {
+                continue;
+            };
+            if let Choice::On(_, Friction::Begins(slip) | Friction::Slips(slip)) = *choice {
+                for tangent in rough.tangents.into_iter().flatten() {
+                    if let Some(place) = directions.get_mut(tangent) {
+                        *place = slip;
+                    }
+                }
+            }
+        }
+        Some(directions)
+    }
+
     /// The choices of a number: what holds most comes first.
     fn numbered(&self, mut number: usize) -> [Choice<S>; K] {
         self.roles.each_ref().map(|role| {
@@ -58,9 +106,12 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
         })
     }
 
+    /// Whether contacts open differently. Where only the shares of a load differ, and with them
+    /// what friction does, the one that was tried first is taken: that which holds most.
     fn differ(&self, a: &ConeSolution<S, K>, b: &ConeSolution<S, K>) -> bool {
         let sizes = [self.sizes(&a.efforts), self.sizes(&b.efforts)];
-        (0..K).any(|index| {
+        let is_limit = |index: &usize| matches!(self.roles[*index], Role::Pushes { .. });
+        (0..K).filter(is_limit).any(|index| {
             let [first, second] = sizes.each_ref().map(|sizes| sizes[index]);
             let difference = (a.residuals[index] - b.residuals[index]).abs();
             difference > S::constant(DIFFERENT) * first.max(second)
