@@ -280,3 +280,68 @@ fn a_stack_on_a_shaken_table_slips_and_sticks() {
     shaken::<Relative>();
     shaken::<Absolute>();
 }
+
+/// A block of 1 m by 1 m by 2 m, with the corners of its base.
+#[derive(Mechanism)]
+#[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
+struct Block {
+    #[body(free, mass = 3.0, inertia = [1.25, 1.25, 0.5], position = [0.0, 0.0, 1.0])]
+    block: Body,
+    #[point(on = block, at = [-0.5, -0.5, 0.0])]
+    first: Point,
+    #[point(on = block, at = [0.5, -0.5, 0.0])]
+    second: Point,
+    #[point(on = block, at = [-0.5, 0.5, 0.0])]
+    third: Point,
+    #[point(on = block, at = [0.5, 0.5, 0.0])]
+    fourth: Point,
+}
+
+/// More corners than its motion determines begin to stick together.
+#[test]
+fn a_block_in_space_slides_to_rest_on_four_corners() {
+    let (block, h) = (Block::default(), Block::HANDLES);
+    for (number, slope) in [0.0_f64, 0.1, 0.0, 0.1, 0.2].into_iter().enumerate() {
+        let friction = 0.31 + 0.01 * number as f64;
+        let speed = 1.1 + 0.037 * number as f64;
+        let (sine, cosine) = slope.sin_cos();
+        let plane = Plane::on_ground([0.0; 3], [sine, 0.0, cosine]).along([cosine, 0.0, -sine]);
+        let mut start = block.described_state().expect("it is described");
+        let mut pose = block.view(0.0, &start).expect("a view").pose(h.block);
+        pose.position = [sine, 0.0, cosine].into();
+        let half = 0.5 * slope;
+        pose.orientation = holonom::nalgebra::Quaternion::new(half.cos(), 0.0, half.sin(), 0.0);
+        Block::set_pose(&mut start, h.block, pose);
+        let down = [speed * cosine, 0.0, -speed * sine];
+        Block::set_velocity(&mut start, h.block, down.into());
+        let [[a, b, c], [d, e, f], [g, i, j], [k, l, m]] = [h.first, h.second, h.third, h.fourth]
+            .map(|corner| Interaction::contact(corner, plane).with_friction(friction));
+        let contacts = [a, b, c, d, e, f, g, i, j, k, l, m];
+        let [_, first, _, _, _, _, _, _, _, _, last, _] = Interaction::handles(&contacts);
+        let braking = GRAVITY * (friction * cosine - sine);
+        let rests = speed / braking;
+        block
+            .simulation(StandardLagrange, DormandPrince::new(tight()))
+            .initial_state(start)
+            .interactions(contacts)
+            .run(
+                0.0..=rests + 1.0,
+                every(0.25),
+                |sample| -> Result<(), Fault> {
+                    let after = sample.time() - rests;
+                    for rubs in [first, last] {
+                        let sticks = sample.mode(rubs)? == InteractionMode::Sticking;
+                        assert!(after.abs() < 1e-9 || sticks == (after > 0.0), "{after}");
+                    }
+                    if after > 1e-9 {
+                        let way = (sample.position(h.block) - pose.position).norm();
+                        let wanted = 0.5 * speed * rests;
+                        assert!((way - wanted).abs() < 1e-9, "{way} {wanted}");
+                        assert!(sample.velocity(h.block).norm() < 1e-15);
+                    }
+                    Ok(())
+                },
+            )
+            .unwrap_or_else(|fault| panic!("{number}: {fault}"));
+    }
+}

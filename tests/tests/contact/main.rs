@@ -6,6 +6,7 @@ mod cams;
 mod faults;
 mod going_on;
 mod tops;
+mod turning;
 
 use holonom::prelude::*;
 
