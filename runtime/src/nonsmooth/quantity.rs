@@ -215,6 +215,15 @@ impl<S: Scalar> Quantity<S> {
         scene: &Scene<'_, S, M>,
         mut each: impl FnMut(usize, S),
     ) {
+        match self {
+            Self::Gap(at, surface, shape) => {
+                return scene.each_part_of_touch((*at, surface, shape), None, each);
+            }
+            Self::Slip(at, surface, shape, direction) => {
+                return scene.each_part_of_touch((*at, surface, shape), Some(*direction), each);
+            }
+            _ => {}
+        }
         let mut still = *scene.bodies;
         *still.velocities_mut() = Array::zeros();
         let read = |still: &M::State<S>| {

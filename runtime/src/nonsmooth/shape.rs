@@ -1,12 +1,15 @@
 //! Shapes that touch surfaces, with the motion of what touches.
 
 use crate::forward::Forward;
+use crate::math::quaternion::{normalised, rotate_back};
 use crate::math::scalar::{Real, Scalar};
-use crate::math::vec3::{cross, minus, norm, plus, times};
+use crate::math::vec3::{cross, minus, norm, plus, read, times};
+use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::place::{At, PlaceOfPlane, dot};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sphere::PlaceOfSphere;
+use crate::state::vector::{Array, StateParts};
 
 /// What a shape touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +48,9 @@ pub(crate) struct Touch<S> {
     pub(super) slip: [S; 2],
     /// Both directions (global).
     pub(super) directions: [[S; 3]; 2],
+    /// The normal, and the point that touches (global).
+    normal: [S; 3],
+    point: [S; 3],
 }
 
 impl<S> Surface<S> {
@@ -191,7 +197,8 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
                 plus(&deepest, &times(&normal, -*tube))
             }
         };
-        let way = minus(&plus(&centre, &arm), &base);
+        let point = plus(&centre, &arm);
+        let way = minus(&point, &base);
         let turning = match at.body::<M>() {
             Some(body) => cross(&self.spin(body), &arm),
             None => [S::zero(); 3],
@@ -211,6 +218,49 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
             rate: dot(&normal, &relative),
             slip: [dot(&along, &relative), dot(&across, &relative)],
             directions: [along, across],
+            normal,
+            point,
+        }
+    }
+
+    /// Calls with every velocity of both bodies, and its part in the rate of a gap, or of a slip in
+    /// a direction.
+    pub(crate) fn each_part_of_touch(
+        &self,
+        (at, surface, shape): (At, &Surface<S>, &Shape<S>),
+        direction: Option<Direction>,
+        mut each: impl FnMut(usize, S),
+    ) {
+        let touch = self.touch(at, surface, shape);
+        let [along, across] = touch.directions;
+        let way = match direction {
+            None => touch.normal,
+            Some(Direction::Along) => along,
+            Some(Direction::Across) => across,
+        };
+        let bodies = [
+            (at.body::<M>(), way),
+            (surface.body::<M>(), times(&way, -S::one())),
+        ];
+        for (body, way) in bodies {
+            let Some(body) = body else {
+                continue;
+            };
+            let Some(info) = BodyHandle::<M>::new(body).info() else {
+                continue;
+            };
+            for (place, part) in (info.velocity..).zip(way) {
+                each(place, part);
+            }
+            let coordinates = self.bodies.coordinates().as_slice();
+            if let Some((_, place)) = BodyHandle::<M>::new(body).orientation() {
+                let p = normalised(&read(coordinates, place));
+                let arm = minus(&touch.point, &read(coordinates, info.coordinate));
+                let moment = rotate_back(&p, &cross(&arm, &way));
+                for (place, part) in (info.velocity + 3..).zip(moment) {
+                    each(place, part);
+                }
+            }
         }
     }
 

@@ -101,7 +101,7 @@ fn two_contacts_satisfy_their_conditions() {
     }
     // Moderate friction: nearly always there is one motion.
     assert!(counts[0] < 40 && counts[1] < 40, "{counts:?}");
-    assert!(counts[2] > 100 && counts[3] > 1000, "{counts:?}");
+    assert!(counts[2] > 50 && counts[3] > 1000, "{counts:?}");
 }
 
 /// Painleve's rod: the friction of sliding lifts by `mu s c` what it is pressed by.
