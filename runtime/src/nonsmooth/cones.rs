@@ -81,7 +81,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         Slip {
             components,
             directions: touch.directions,
-            vector: combined(&touch.directions, components),
+            vector: touch.slip_vector(has_both),
         }
     }
 

@@ -53,6 +53,19 @@ pub(crate) struct Touch<S> {
     point: [S; 3],
 }
 
+impl<S: Scalar> Touch<S> {
+    /// The slip (m/s, global), in both directions or in the first one alone.
+    pub(super) fn slip_vector(&self, has_both: bool) -> [S; 3] {
+        let ([along, across], [x, y]) = (self.directions, self.slip);
+        let first = times(&along, x);
+        if has_both {
+            plus(&first, &times(&across, y))
+        } else {
+            first
+        }
+    }
+}
+
 impl<S> Surface<S> {
     /// The body that it is fixed on.
     pub(super) fn body<M: Mechanism>(&self) -> Option<usize> {

@@ -191,7 +191,10 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             return match self.mode() {
                 _ if tangent.behind > 1 => never,
                 InteractionMode::Sticking => capacity - size,
-                InteractionMode::Slipping => dot(&self.status.slip, &self.slip(scene).vector),
+                InteractionMode::Slipping => match quantity.touch(scene) {
+                    Some(touch) => dot(&self.status.slip, &touch.slip_vector(tangent.has_both)),
+                    None => never,
+                },
                 _ => never,
             };
         }
