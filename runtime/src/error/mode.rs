@@ -52,8 +52,8 @@ pub enum ModeFault {
         /// The time (s).
         time: f64,
     },
-    /// Impulses with friction and Newton's restitution would bring energy to the mechanism (Kane's
-    /// paradox).
+    /// Impulses with friction and a restitution would bring energy to the mechanism, as those of
+    /// Newton's may (Kane's paradox).
     GainsEnergy {
         /// The field of the body or the point of one of the contacts.
         joint: &'static str,
@@ -151,8 +151,8 @@ impl fmt::Display for ModeFault {
                 time,
             } => write!(
                 f,
-                "at {} s the impact of `{joint}` would bring {} J to the mechanism: Newton's restitution does so with friction (Kane's paradox); \
-                 take `restitution_of_impulses`",
+                "at {} s the impact of `{joint}` would bring {} J to the mechanism: Newton's restitution may do so with friction (Kane's paradox); \
+                 take `restitution_of_impulses`, or a smaller one",
                 Given(time),
                 Given(gained)
             ),

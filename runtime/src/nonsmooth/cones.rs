@@ -29,9 +29,9 @@ const AT_ITS_END: f64 = 1e-10;
 /// The cosine below which slip has passed its zero, and not turned.
 const OPPOSITE: f64 = -0.9;
 
-/// Slip that begins has the direction of its acceleration up to this part of what it is the sum of:
-/// the error of its velocity goes with the power 3/2 of that, and the steps that follow its
-/// direction explicitly with the power -1/2.
+/// Slip that begins has the direction of its acceleration up to this part of what it is the sum of.
+/// The error of its velocity goes with the power 3/2 of that. How many steps then follow its
+/// direction goes with the power -1/2.
 const BEGUN: f64 = 1e-6;
 
 /// What is as near to what it can bear as this is found there together with another.

@@ -35,7 +35,7 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     }
 
     /// The edge of a disc that does not pass a plane: a wheel, a coin, the rim of a cylinder. Its
-    /// centre is a point of a body or a centre of mass, its axis (of any length but zero) is along
+    /// centre is a point of a body or a centre of mass. Its axis, of any length but zero, is along
     /// the user's axes of that body. `radius` (m) is that of the edge. With [`Interaction::tube`]
     /// the edge is round: a tyre.
     ///

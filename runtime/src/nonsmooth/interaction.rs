@@ -370,9 +370,9 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
     }
 
     /// Poisson's coefficient of restitution, from 0 to 1, in place of Newton's: the impulse of a
-    /// contact after its greatest compression over the one until then. With friction it loses
-    /// energy at every impact, which Newton's does not always (Glocker and Pfeiffer, *Multiple
-    /// impacts with friction in rigid multibody systems*, 1995).
+    /// contact after its greatest compression over the one until then (Glocker and Pfeiffer,
+    /// *Multiple impacts with friction in rigid multibody systems*, 1995). With friction Newton's
+    /// may bring energy where this one loses some.
     #[must_use]
     pub fn restitution_of_impulses(mut self, restitution: S) -> Self {
         match &mut self.law {

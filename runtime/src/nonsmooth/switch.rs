@@ -213,9 +213,10 @@ fn stick<S: Real, M: Mechanism, const K: usize>(
     all: &mut [Struck<S>; K],
 ) {
     // Slip that a step has led to its zero ends, and so does what ends together with it.
-    let found = list
-        .iter()
-        .any(|tracked| tracked.tangent().is_some() && tracked.status.is_found);
+    let has_ended = |tracked: &Tracked<S, M>| {
+        tracked.mode() == InteractionMode::Slipping && tracked.status.is_found
+    };
+    let found = list.iter().any(has_ended);
     for contact in 0..K {
         let [Some(first), second] = tangents_of(list, contact) else {
             continue;
