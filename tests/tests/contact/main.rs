@@ -7,6 +7,7 @@ mod faults;
 mod going_on;
 mod tops;
 mod turning;
+mod woodpecker;
 
 use holonom::prelude::*;
 
