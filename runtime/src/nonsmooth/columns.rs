@@ -6,9 +6,10 @@ use crate::forward::{Forward, lifted};
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::{AbsoluteEquations, Coordinates};
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::reader::Reader;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
-use crate::state::vector::{Array, MovingState, Vector};
+use crate::state::vector::{Array, MovingState, StateParts as _, Vector};
 
 /// The equations of motion at one time and state, factorised, with what reads the bodies.
 pub struct Setting<'a, S: Real, M: Mechanism, F: Formulation<S>, C: Coordinates<M>> {
@@ -62,13 +63,53 @@ where
         })
     }
 
-    /// The rates of all quantities at other velocities.
-    fn rates_at<const K: usize>(
+    /// How velocities have a part in the rates of all quantities.
+    fn parts<const K: usize>(&self, list: &[Tracked<S, M>; K]) -> Parts<S, M, K> {
+        let rows = self.here(|scene| {
+            let mut reader = Reader::of(scene);
+            list.each_ref().map(|tracked| {
+                let quantity = &tracked.interaction.quantity;
+                quantity.is_contact().then(|| {
+                    let mut row = M::Velocities::<S>::zeros();
+                    reader.each_part(quantity, |place, part| {
+                        if let Some(element) = row.as_mut_slice().get_mut(place) {
+                            *element = *element + part;
+                        }
+                    });
+                    row
+                })
+            })
+        });
+        self.with_velocities(&Array::zeros(), |scene| Parts {
+            rows,
+            still: *scene.bodies.velocities(),
+            offset: core::array::from_fn(|index| match rows[index] {
+                Some(_) => S::zero(),
+                None => list[index].interaction.quantity.rate(scene),
+            }),
+        })
+    }
+
+    /// What velocities add to the rates of all quantities.
+    fn added<const K: usize>(
         &self,
         list: &[Tracked<S, M>; K],
+        parts: &Parts<S, M, K>,
         velocities: &C::Velocities<S>,
     ) -> [S; K] {
-        self.with_velocities(velocities, |scene| rates(list, scene))
+        self.with_velocities(velocities, |scene| {
+            let moving = scene.bodies.velocities().as_slice();
+            core::array::from_fn(|index| match &parts.rows[index] {
+                Some(row) => {
+                    let by = moving.iter().zip(parts.still.as_slice());
+                    let terms = row.as_slice().iter().zip(by);
+                    terms.fold(S::zero(), |sum, (&part, (&moving, &still))| {
+                        part.fused(moving - still, sum)
+                    })
+                }
+                None => list[index].interaction.quantity.rate(scene) - parts.offset[index],
+            })
+        })
     }
 
     /// The accelerations of all quantities at these rates of the velocities, exact to round-off.
@@ -103,9 +144,10 @@ where
                 time: Forward::new(self.saddle.time, [S::one()]),
                 bodies,
             };
+            let mut reader = Reader::of(&scene);
             let rate = |tracked: &Tracked<S, M>| {
                 let quantity = tracked.interaction.quantity.lifted::<1>();
-                let [acceleration] = quantity.rate(&scene).derivatives();
+                let [acceleration] = reader.rate(&quantity).derivatives();
                 acceleration
             };
             list.each_ref().map(rate)
@@ -113,13 +155,24 @@ where
     }
 }
 
+/// How velocities have a part in the rates of quantities.
+struct Parts<S: Real, M: Mechanism, const K: usize> {
+    /// By the velocities of the bodies, of contacts.
+    rows: [Option<M::Velocities<S>>; K],
+    /// The velocities of the bodies where nothing moves but by time.
+    still: M::Velocities<S>,
+    /// The rates of what is no contact then.
+    offset: [S; K],
+}
+
 /// The rates of all quantities.
 pub(crate) fn rates<S: Real, M: Mechanism, const K: usize>(
     list: &[Tracked<S, M>; K],
     scene: &Scene<'_, S, M>,
 ) -> [S; K] {
+    let mut reader = Reader::of(scene);
     list.each_ref()
-        .map(|tracked| tracked.interaction.quantity.rate(scene))
+        .map(|tracked| reader.rate(&tracked.interaction.quantity))
 }
 
 /// What a unit effort along each quantity does.
@@ -149,33 +202,36 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, 
             free: [S::zero(); K],
             chosen: *chosen,
         };
-        let offset = setting.rates_at(list, &Array::zeros());
+        let parts = setting.parts(list);
         let mass = M::metric::<S>(&setting.absolute.constants);
         let zero = S::zero();
         for (index, tracked) in list.iter().enumerate() {
             if !chosen[index] {
                 continue;
             }
-            let mut loads = M::Velocities::<S>::zeros();
-            setting.here(|scene| {
-                let quantity = &tracked.interaction.quantity;
-                quantity.add_effort(scene, S::one(), &mut loads);
+            let loads = parts.rows[index].unwrap_or_else(|| {
+                let mut loads = M::Velocities::<S>::zeros();
+                setting.here(|scene| {
+                    let quantity = &tracked.interaction.quantity;
+                    quantity.add_effort(scene, S::one(), &mut loads);
+                });
+                loads
             });
             let free = loads.as_slice().iter().zip(mass.as_slice());
             let free = free.fold(zero, |sum, (&load, &mass)| {
                 (load * load).fused(mass.reciprocal(), sum)
             });
             let (velocities, multipliers) = solved(setting, &loads)?;
-            let rates = setting.rates_at(list, &velocities);
+            let rates = setting.added(list, &parts, &velocities);
             columns.velocities[index] = velocities;
             columns.multipliers[index] = multipliers;
             columns.free[index] = free;
-            let compliance = rates[index] - offset[index];
+            let compliance = rates[index];
             if compliance <= S::constant(NO_FREEDOM) * S::EPSILON * free {
                 continue;
             }
-            for (row, (&rate, &offset)) in rates.iter().zip(&offset).enumerate() {
-                columns.delassus[row][index] = rate - offset;
+            for (row, &rate) in rates.iter().enumerate() {
+                columns.delassus[row][index] = rate;
             }
         }
         columns.symmetrise(chosen);

@@ -18,6 +18,7 @@ use crate::nonsmooth::law::Friction;
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::place::dot;
+use crate::nonsmooth::reader::Reader;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{AT_BOUND, AT_REST, ROUND_OFF, part};
 use crate::nonsmooth::status::{Exerted, Next, Show, Tracked};
@@ -67,9 +68,9 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     }
 
     /// The slip at its contact, along the directions in which that has friction.
-    pub(super) fn slip(&self, scene: &Scene<'_, S, M>) -> Slip<S> {
+    pub(super) fn slip(&self, reader: &mut Reader<'_, S, M>) -> Slip<S> {
         let has_both = self.tangent().is_some_and(|tangent| tangent.has_both);
-        let Some(touch) = self.interaction.quantity.touch(scene) else {
+        let Some(touch) = reader.touch(&self.interaction.quantity) else {
             return Slip {
                 components: [S::zero(); 2],
                 directions: [[S::zero(); 3]; 2],
@@ -88,11 +89,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// The direction of the slip at its contact, along the directions of its surface. Beyond its
     /// zero, as a step that ends its mode looks there, it is the one until then: so the friction of
     /// a step goes on smoothly. Slip that only turns does not come near the opposite direction.
-    fn direction_of_slip(&self, scene: &Scene<'_, S, M>) -> [S; 2] {
+    fn direction_of_slip(&self, reader: &mut Reader<'_, S, M>) -> [S; 2] {
         if self.mode() != InteractionMode::Slipping {
             return [S::zero(); 2];
         }
-        let slip = self.slip(scene);
+        let slip = self.slip(reader);
         let [along, across] = slip.components;
         let size = length([along, across]);
         let known = self.status.slip;
@@ -112,8 +113,9 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         if self.mode() != InteractionMode::Slipping {
             return (self.status.slip, false);
         }
-        let direction = self.direction_of_slip(scene);
-        let slip = self.slip(scene);
+        let mut reader = Reader::of(scene);
+        let direction = self.direction_of_slip(&mut reader);
+        let slip = self.slip(&mut reader);
         let begun = length(slip.components) > S::constant(BEGUN) * self.status.largest;
         (combined(&slip.directions, direction), begun)
     }
@@ -303,8 +305,9 @@ where
     let motions: [Motion<S>; K] =
         setting.here(|scene| list.each_mut().map(|tracked| Motion::of(tracked, scene)));
     let slips = setting.here(|scene| {
+        let mut reader = Reader::of(scene);
         list.each_ref().map(|tracked| {
-            let [x, y] = tracked.slip(scene).components;
+            let [x, y] = tracked.slip(&mut reader).components;
             let size = length([x, y]).max(S::smallest());
             [x.quotient(size), y.quotient(size)]
         })
@@ -339,7 +342,8 @@ where
             (_, Next::On(_)) => InteractionMode::Free,
             (Outcome::Holds, _) => InteractionMode::Sticking,
             (Outcome::Slips(slip), next) => {
-                let directions = setting.here(|scene| tracked.slip(scene).directions);
+                let directions =
+                    setting.here(|scene| tracked.slip(&mut Reader::of(scene)).directions);
                 tracked.status.slip = combined(&directions, slip);
                 tracked.status.begins = !matches!(next, Next::Moving(_));
                 InteractionMode::Slipping
@@ -485,7 +489,8 @@ where
     let mut tied = Tied::nothing();
     tied.holds = list.each_ref().map(|tracked| tracked.mode().holds());
     let slips = setting.here(|scene| {
-        let direction = |tracked: &Tracked<S, M>| tracked.direction_of_slip(scene);
+        let mut reader = Reader::of(scene);
+        let direction = |tracked: &Tracked<S, M>| tracked.direction_of_slip(&mut reader);
         list.each_ref().map(direction)
     });
     let mut chosen = tied.holds;

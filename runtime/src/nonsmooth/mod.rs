@@ -21,7 +21,7 @@
 //! of efforts, `slipping.rs` solves for what slides, `capacities.rs` for what may stick.
 //!
 //! Contacts: `contact.rs` is what a user writes, `shape.rs` how shapes lie and move against what
-//! they touch (`place.rs`, `sphere.rs`). Their friction: `cones.rs`, over `cone_problem.rs` and
+//! they touch (`place.rs`, `sphere.rs`), `reader.rs` looks once for all that asks. Their friction: `cones.rs`, over `cone_problem.rs` and
 //! `tied.rs`, which know no mechanism.
 //!
 //! The reasons are in `docs/decisions/027-interactions.md`, `032-friction-by-load.md` and
@@ -47,6 +47,7 @@ pub(crate) mod mode;
 mod motion;
 pub(crate) mod place;
 pub(crate) mod quantity;
+mod reader;
 mod remembered;
 pub(crate) mod scene;
 pub(crate) mod shape;

@@ -9,8 +9,9 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::mechanism::turns;
 use crate::nonsmooth::place::At;
+use crate::nonsmooth::reader::Reader;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::shape::{Direction, Shape, Surface, Touch};
+use crate::nonsmooth::shape::{Direction, Shape, Surface};
 use crate::state::vector::{Array, StateParts};
 
 /// The angle (rad) or the displacement (m) of a joint, by [`JointHandle::angle`] and
@@ -167,12 +168,15 @@ impl<S: Scalar> Quantity<S> {
         }
     }
 
-    /// What touches at a contact; `None` of what is none.
-    pub(super) fn touch<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> Option<Touch<S>> {
-        match *self {
-            Self::Gap(at, ref surface, ref shape) | Self::Slip(at, ref surface, ref shape, _) => {
-                Some(scene.touch(at, surface, shape))
-            }
+    /// Whether it is of what touches at a contact.
+    pub(super) fn is_contact(&self) -> bool {
+        matches!(self, Self::Gap(..) | Self::Slip(..))
+    }
+
+    /// Along which direction of a surface; `None` of all but slip.
+    pub(super) fn direction(&self) -> Option<Direction> {
+        match self {
+            Self::Slip(.., direction) => Some(*direction),
             _ => None,
         }
     }
@@ -189,19 +193,17 @@ impl<S: Scalar> Quantity<S> {
 
     /// Its rate.
     pub(crate) fn rate<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> S {
+        Reader::of(scene).rate(self)
+    }
+
+    /// The rate of what is no contact.
+    pub(super) fn rate_between<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> S {
         match *self {
             Self::Joint(reading) => scene.rate(reading),
             Self::Difference(first, second, ratio) => {
                 scene.rate(first) - ratio * scene.rate(second)
             }
-            Self::Gap(at, ref surface, ref shape) => scene.touch(at, surface, shape).rate,
-            Self::Slip(at, ref surface, ref shape, direction) => {
-                let [along, across] = scene.touch(at, surface, shape).slip;
-                match direction {
-                    Direction::Along => along,
-                    Direction::Across => across,
-                }
-            }
+            Self::Gap(..) | Self::Slip(..) => S::zero(),
             Self::Distance(a, b) => {
                 let [_, rate] = scene.distance(a, b);
                 rate
@@ -213,22 +215,22 @@ impl<S: Scalar> Quantity<S> {
     pub(crate) fn each_part<M: Mechanism>(
         &self,
         scene: &Scene<'_, S, M>,
+        each: impl FnMut(usize, S),
+    ) {
+        Reader::of(scene).each_part(self, each);
+    }
+
+    /// The same of what is no contact.
+    pub(super) fn each_part_between<M: Mechanism>(
+        &self,
+        scene: &Scene<'_, S, M>,
         mut each: impl FnMut(usize, S),
     ) {
-        match self {
-            Self::Gap(at, surface, shape) => {
-                return scene.each_part_of_touch((*at, surface, shape), None, each);
-            }
-            Self::Slip(at, surface, shape, direction) => {
-                return scene.each_part_of_touch((*at, surface, shape), Some(*direction), each);
-            }
-            _ => {}
-        }
         let mut still = *scene.bodies;
         *still.velocities_mut() = Array::zeros();
         let read = |still: &M::State<S>| {
             let bodies = still;
-            self.rate(&Scene::<S, M> { bodies, ..*scene })
+            self.rate_between(&Scene::<S, M> { bodies, ..*scene })
         };
         let offset = read(&still);
         let set = |still: &mut M::State<S>, place: usize, value| {

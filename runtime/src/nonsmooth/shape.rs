@@ -54,6 +54,16 @@ pub(crate) struct Touch<S> {
 }
 
 impl<S: Scalar> Touch<S> {
+    /// The rate of the gap, or the slip in a direction (m/s).
+    pub(super) fn rate_along(&self, direction: Option<Direction>) -> S {
+        let [along, across] = self.slip;
+        match direction {
+            None => self.rate,
+            Some(Direction::Along) => along,
+            Some(Direction::Across) => across,
+        }
+    }
+
     /// The slip (m/s, global), in both directions or in the first one alone.
     pub(super) fn slip_vector(&self, has_both: bool) -> [S; 3] {
         let ([along, across], [x, y]) = (self.directions, self.slip);
@@ -238,13 +248,12 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
 
     /// Calls with every velocity of both bodies, and its part in the rate of a gap, or of a slip in
     /// a direction.
-    pub(crate) fn each_part_of_touch(
+    pub(super) fn each_part_of_touch(
         &self,
-        (at, surface, shape): (At, &Surface<S>, &Shape<S>),
+        (at, surface, touch): (At, &Surface<S>, &Touch<S>),
         direction: Option<Direction>,
         mut each: impl FnMut(usize, S),
     ) {
-        let touch = self.touch(at, surface, shape);
         let [along, across] = touch.directions;
         let way = match direction {
             None => touch.normal,

@@ -8,6 +8,7 @@ use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::law::{Friction, Law, Tangent};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::place::dot;
+use crate::nonsmooth::reader::Reader;
 use crate::nonsmooth::scene::Scene;
 
 /// An impact or another impulse on a quantity.
@@ -191,7 +192,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             return match self.mode() {
                 _ if tangent.behind > 1 => never,
                 InteractionMode::Sticking => capacity - size,
-                InteractionMode::Slipping => match quantity.touch(scene) {
+                InteractionMode::Slipping => match Reader::of(scene).touch(quantity) {
                     Some(touch) => dot(&self.status.slip, &touch.slip_vector(tangent.has_both)),
                     None => never,
                 },

@@ -1,0 +1,73 @@
+//! Quantities of a list, read in its order.
+
+use crate::math::scalar::Scalar;
+use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::place::At;
+use crate::nonsmooth::quantity::Quantity;
+use crate::nonsmooth::scene::Scene;
+use crate::nonsmooth::shape::{Shape, Surface, Touch};
+
+/// Reads quantities of a scene. Friction stands behind its contact: what touches there is looked at
+/// once for all of them.
+pub(crate) struct Reader<'s, S: Scalar, M: Mechanism> {
+    scene: Scene<'s, S, M>,
+    last: Option<Contact<S>>,
+}
+
+/// A contact, and what touches there.
+struct Contact<S> {
+    at: At,
+    surface: Surface<S>,
+    shape: Shape<S>,
+    touch: Touch<S>,
+}
+
+impl<'s, S: Scalar, M: Mechanism> Reader<'s, S, M> {
+    pub(crate) fn of(scene: &Scene<'s, S, M>) -> Self {
+        Self {
+            scene: *scene,
+            last: None,
+        }
+    }
+
+    /// What touches at a contact; `None` of what is none.
+    pub(super) fn touch(&mut self, quantity: &Quantity<S>) -> Option<&Touch<S>> {
+        let (Quantity::Gap(at, surface, shape) | Quantity::Slip(at, surface, shape, _)) = quantity
+        else {
+            return None;
+        };
+        let is_last = self
+            .last
+            .as_ref()
+            .is_some_and(|last| last.at == *at && last.surface == *surface && last.shape == *shape);
+        if !is_last {
+            self.last = Some(Contact {
+                at: *at,
+                surface: *surface,
+                shape: *shape,
+                touch: self.scene.touch(*at, surface, shape),
+            });
+        }
+        self.last.as_ref().map(|last| &last.touch)
+    }
+
+    /// The rate of a quantity.
+    pub(crate) fn rate(&mut self, quantity: &Quantity<S>) -> S {
+        match self.touch(quantity) {
+            Some(touch) => touch.rate_along(quantity.direction()),
+            None => quantity.rate_between(&self.scene),
+        }
+    }
+
+    /// Calls with every velocity of the bodies of a quantity, and its part in the rate.
+    pub(crate) fn each_part(&mut self, quantity: &Quantity<S>, each: impl FnMut(usize, S)) {
+        let scene = self.scene;
+        match (quantity, self.touch(quantity)) {
+            (Quantity::Gap(at, surface, _) | Quantity::Slip(at, surface, ..), Some(touch)) => {
+                let direction = quantity.direction();
+                scene.each_part_of_touch((*at, surface, touch), direction, each);
+            }
+            _ => quantity.each_part_between(&scene, each),
+        }
+    }
+}
