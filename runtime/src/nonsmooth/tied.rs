@@ -14,6 +14,9 @@ const ENOUGH: f64 = 2.0;
 /// How much more freely one of several that depend on each other yields, at the most.
 const WEIGHTS: f64 = 1e3;
 
+/// Friction bears little of what normal efforts can bear: so many times what it can bear itself.
+const LEAVES: f64 = 0.1;
+
 /// Floors on the diagonal of unit scale. How what depends on each other shares is known to
 /// `EPSILON` over the floor; refinement gains as many digits a round as the floor has, less those
 /// of the condition. The second one is for what the first does not end for.
@@ -115,20 +118,17 @@ impl<S: Real, const K: usize> Tied<S, K> {
         if contacts.all(|contact| Some(contact) == first) {
             return efforts;
         }
-        let bears = sticking
-            .map(|one| one.map(|(contact, coefficient)| coefficient * at(&efforts, contact).abs()));
-        let most = bears.iter().flatten().fold(
-            S::zero(),
-            |most, &one| {
-                if one > most { one } else { most }
-            },
-        );
-        if most <= S::zero() {
+        let mut normal = S::zero();
+        for (contact, _) in sticking.iter().flatten() {
+            normal = normal.max(at(&efforts, *contact).abs());
+        }
+        if normal <= S::zero() {
             return efforts;
         }
-        for (weight, bears) in weights.iter_mut().zip(bears) {
-            if let Some(bears) = bears {
-                *weight = bears.quotient(most);
+        for (weight, one) in weights.iter_mut().zip(sticking) {
+            if let Some((contact, coefficient)) = *one {
+                let bears = coefficient * at(&efforts, contact).abs().quotient(normal);
+                *weight = (S::constant(LEAVES) * bears).min(S::one());
             }
         }
         self.weighted(matrix, (offset, given), &weights)
