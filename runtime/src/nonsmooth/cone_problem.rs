@@ -13,6 +13,7 @@
 
 mod admissible;
 mod choices;
+mod relaxed;
 mod search;
 
 use crate::math::scalar::Real;

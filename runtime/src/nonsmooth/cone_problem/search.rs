@@ -12,9 +12,9 @@ const CHOICES: usize = 20_000;
 const DIFFERENT: f64 = 1e-6;
 
 /// Steps of Newton's method for directions of slip.
-const STEPS: usize = 40;
+const STEPS: usize = 20;
 
-/// Directions from which it starts.
+/// Directions from which it starts, before that of relaxation.
 const STARTS: usize = 8;
 
 /// What is solved for under a choice.
@@ -34,8 +34,9 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
             return Err(NoSolution::TooMany);
         }
         let mut found: Option<ConeSolution<S, K>> = None;
+        let relaxed = self.relaxed();
         for number in 0..total {
-            let Some(next) = self.under(self.numbered(number)) else {
+            let Some(next) = self.under(self.numbered(number), &relaxed) else {
                 continue;
             };
             match &found {
@@ -118,8 +119,8 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
         })
     }
 
-    /// The solution under a choice, if it is one.
-    fn under(&self, mut choices: [Choice<S>; K]) -> Option<ConeSolution<S, K>> {
+    /// The solution under a choice, if it is one; `relaxed` are residuals near to those of one.
+    fn under(&self, mut choices: [Choice<S>; K], relaxed: &[S; K]) -> Option<ConeSolution<S, K>> {
         let seeks = |choice: &Choice<S>| matches!(choice, Choice::On(_, Friction::Seeks));
         if !choices.iter().any(seeks) {
             return self.admissible(&choices, &self.efforts(&choices)?);
@@ -133,17 +134,18 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
             }
         }
         let free = residuals(&self.matrix, &self.offset, &self.efforts(&smooth)?);
-        let mut turned = 0;
-        while turned < STARTS {
-            let angle = S::constant(turned as f64 * core::f64::consts::TAU / STARTS as f64);
+        for start in 0..=STARTS {
+            let turned = start as f64 / STARTS as f64;
+            let angle = S::constant(turned * core::f64::consts::TAU);
             let (sine, cosine) = (angle.sin(), angle.cos());
+            let from = if start == STARTS { relaxed } else { &free };
             for (index, choice) in choices.iter_mut().enumerate() {
                 if let (Choice::On(_, friction), true, Role::Pushes { rough, .. }) =
                     (choice, sought[index], self.roles[index])
                 {
-                    let [x, y] = rough.map_or([S::zero(); 2], |rough| rough.read(&free));
-                    let start = [cosine * x - sine * y, sine * x + cosine * y];
-                    *friction = Friction::Begins(unit(start)?);
+                    let [x, y] = rough.map_or([S::zero(); 2], |rough| rough.read(from));
+                    let way = [cosine * x - sine * y, sine * x + cosine * y];
+                    *friction = Friction::Begins(unit(way)?);
                 }
             }
             if let Some(efforts) = self.directed(&mut choices, &sought)
@@ -151,7 +153,6 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
             {
                 return Some(solution);
             }
-            turned += 1;
         }
         None
     }
