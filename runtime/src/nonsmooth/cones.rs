@@ -502,7 +502,8 @@ where
     if chosen.contains(&true) {
         let columns = Columns::of(setting, list, &chosen)?;
         let sticking = sticking(list);
-        for round in 0..ROUNDS {
+        // Correction is for what goes on from here: efforts alone are there after the first round.
+        for round in 0..if show.is_some() { 1 } else { ROUNDS } {
             let accelerations = setting.accelerations(list, &solution.accelerations);
             if round == 0 && list.iter().any(Tracked::begins) {
                 let problem = ConeProblem {
