@@ -284,7 +284,7 @@ fn a_stack_on_a_shaken_table_slips_and_sticks() {
 /// A block of 1 m by 1 m by 2 m, with the corners of its base.
 #[derive(Mechanism)]
 #[mechanism(gravity = [0.0, 0.0, -9.81], coordinates = "joints")]
-struct Block {
+pub(crate) struct Block {
     #[body(free, mass = 3.0, inertia = [1.25, 1.25, 0.5], position = [0.0, 0.0, 1.0])]
     block: Body,
     #[point(on = block, at = [-0.5, -0.5, 0.0])]

@@ -3,6 +3,7 @@
 mod balls;
 mod blocks;
 mod cams;
+mod corners;
 mod faults;
 mod going_on;
 mod tops;
