@@ -268,6 +268,17 @@ impl Table<'_> {
     #[inline]
     #[must_use]
     pub fn evaluate<S: Scalar>(&self, order: Order, x: S) -> S {
+        let [number] = self.evaluate_each([order], x);
+        number
+    }
+
+    /// Several of these.
+    #[inline]
+    pub(crate) fn evaluate_each<S: Scalar, const K: usize>(
+        &self,
+        orders: [Order; K],
+        x: S,
+    ) -> [S; K] {
         let at = |part: Part, place: usize| {
             let numbers = match part {
                 Part::End => &self.ends[..],
@@ -277,7 +288,7 @@ impl Table<'_> {
             };
             S::constant(numbers.get(place).copied().unwrap_or(f64::NAN))
         };
-        evaluate(self.knots.len(), at, order, x)
+        evaluate(self.knots.len(), at, orders, x)
     }
 
     /// Its numbers one after the other: ends, knots, values, slopes.
@@ -309,5 +320,6 @@ pub fn evaluate_numbers<S: Scalar>(numbers: &[S], order: Order, x: S) -> S {
         let number = numbers.get(first + place).copied();
         number.unwrap_or_else(|| S::constant(f64::NAN))
     };
-    evaluate(count, at, order, x)
+    let [number] = evaluate(count, at, [order], x);
+    number
 }

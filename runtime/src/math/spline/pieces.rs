@@ -25,16 +25,16 @@ pub(crate) enum Part {
 /// The ends of a piece: knot, value and slope of either.
 type Piece<S> = [[S; 3]; 2];
 
-/// The value or a derivative of the spline of `count` points whose numbers `at` gives.
+/// Values or derivatives of the spline of `count` points whose numbers `at` gives.
 ///
 /// Where lanes lie in different pieces, each chooses its own by a comparison with every knot.
 #[inline]
-pub(super) fn evaluate<S: Scalar>(
+pub(super) fn evaluate<S: Scalar, const K: usize>(
     count: usize,
     at: impl Fn(Part, usize) -> S,
-    order: Order,
+    orders: [Order; K],
     x: S,
-) -> S {
+) -> [S; K] {
     let last = count.saturating_sub(1);
     let (first_knot, last_knot) = (at(Part::Knot, 0), at(Part::Knot, last));
     // Into the first period; where there is none, both factors are zero.
@@ -58,15 +58,17 @@ pub(super) fn evaluate<S: Scalar>(
             chosen
         }
     };
-    let inside = cubic(within, order, x);
-    let outside = |end: usize, knot: S, slope: S| match order {
+    let outside = |order, end: usize, knot: S, slope: S| match order {
         Order::Value => slope.fused(x - knot, at(Part::Value, end)),
         Order::Slope => slope,
         // A number of its kind, so that NaN travels.
         Order::Curvature => S::zero() * (x * slope),
     };
-    let behind = last_knot.select(x, outside(last, last_knot, after), inside);
-    x.select(first_knot, outside(0, first_knot, before), behind)
+    orders.map(|order| {
+        let inside = cubic(within, order, x);
+        let behind = last_knot.select(x, outside(order, last, last_knot, after), inside);
+        x.select(first_knot, outside(order, 0, first_knot, before), behind)
+    })
 }
 
 /// A cubic by values and slopes at its ends.
