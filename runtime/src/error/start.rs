@@ -272,6 +272,14 @@ fn rule(setting: &str) -> &'static str {
             "a hinge or a screw with friction by load has a positive radius, by `.radius(..)`"
         }
         "guide" | "collar" => "it is a length, positive and finite",
+        "axis" | "zero direction" => {
+            "it has a length, and the zero direction of a cam is not along its axis"
+        }
+        "profile" => "the profile of a cam is a spline without a fault, see `Spline::fault`",
+        "period of a profile" => "a profile is `Spline::periodic`, and repeats itself after 2 pi",
+        "least radius of curvature" => {
+            "a cam is convex: `h + h''` of its profile is positive at all angles"
+        }
         "ratio" => "it is finite and not zero: what holds one quantity alone is a brake",
         OF_ITSELF => "a clutch is between two quantities: what holds one alone is a brake",
         _ => "it is finite",

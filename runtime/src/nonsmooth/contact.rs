@@ -3,6 +3,7 @@
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
+use crate::nonsmooth::cam::Cam;
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::law::{Friction, Law, Tangent};
 use crate::nonsmooth::place::{At, Plane, direction_on};
@@ -53,6 +54,31 @@ impl<S: Real, M: Mechanism> Interaction<S, M> {
         let tube = S::zero();
         let shape = Shape::Disc { axis, radius, tube };
         Self::touching(at, Surface::Plane(plane.place), shape)
+    }
+
+    /// A cam that does not pass a plane, as of a flat follower: see [`Cam::about`].
+    ///
+    /// In space the cam is thin. A plane whose normal is along its axis touches it nowhere in
+    /// particular, as a disc that lies flat, [`Interaction::contact_of_disc`].
+    #[must_use]
+    pub fn contact_of_cam(cam: Cam<S, M>, plane: Plane<S, M>) -> Self {
+        let shape = Shape::Cam(cam.outline);
+        Self::touching(cam.at, Surface::Plane(plane.place), shape)
+    }
+
+    /// A roller or a ball about a point of a body or a centre of mass that does not pass a cam,
+    /// with the [`Interaction::radius`] of the roller. Friction is counted along the direction of
+    /// increasing angles of the cam, and along its axis.
+    ///
+    /// The gap is the distance from the profile as long as the centre of the roller is outside of
+    /// the cam. Within, it is negative and at least as deep as the distance.
+    #[must_use]
+    pub fn contact_with_cam(centre: impl Located<M>, cam: Cam<S, M>) -> Self {
+        Self::touching(
+            At::of(centre),
+            Surface::Cam(cam.at, cam.outline),
+            Shape::Ball(S::zero()),
+        )
     }
 
     fn touching(at: At, surface: Surface<S>, shape: Shape<S>) -> Self {

@@ -21,14 +21,16 @@
 //! of efforts, `slipping.rs` solves for what slides, `capacities.rs` for what may stick.
 //!
 //! Contacts: `contact.rs` is what a user writes, `shape.rs` how shapes lie and move against what
-//! they touch (`place.rs`, `sphere.rs`), `reader.rs` looks once for all that asks. Their friction: `cones.rs`, over `cone_problem.rs` and
-//! `tied.rs`, which know no mechanism.
+//! they touch (`place.rs`, `sphere.rs`, `cam.rs` over `profile.rs`). `reader.rs` looks once for all
+//! that asks. Their friction: `cones.rs`, over `cone_problem.rs` and `tied.rs`, which know no
+//! mechanism.
 //!
 //! The reasons are in `docs/decisions/027-interactions.md`, `032-friction-by-load.md` and
 //! `051-contacts-with-friction.md`.
 
 pub(crate) mod bearing;
 mod box_problem;
+pub(crate) mod cam;
 mod capacities;
 pub(crate) mod checked;
 mod choice;
@@ -46,6 +48,7 @@ pub(crate) mod loads;
 pub(crate) mod mode;
 mod motion;
 pub(crate) mod place;
+mod profile;
 pub(crate) mod quantity;
 mod reader;
 mod remembered;

@@ -103,7 +103,7 @@ pub(super) fn of_length_1<S: Real>(vector: &[S; 3]) -> [S; 3] {
 }
 
 /// The part of a vector at right angles to a normal of length 1.
-fn within<S: Real>(vector: &[S; 3], normal: &[S; 3]) -> [S; 3] {
+pub(super) fn within<S: Real>(vector: &[S; 3], normal: &[S; 3]) -> [S; 3] {
     minus(vector, &times(normal, dot(vector, normal)))
 }
 

@@ -6,6 +6,7 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, minus, norm, plus, read, times};
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::cam::Outline;
 use crate::nonsmooth::place::{At, PlaceOfPlane, dot};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sphere::PlaceOfSphere;
@@ -16,6 +17,8 @@ use crate::state::vector::{Array, StateParts};
 pub(crate) enum Surface<S> {
     Plane(PlaceOfPlane<S>),
     Sphere(PlaceOfSphere<S>),
+    /// A cam about a point.
+    Cam(At, Outline<S>),
 }
 
 /// What touches it, about the point that it is given by.
@@ -26,6 +29,8 @@ pub(crate) enum Shape<S> {
     /// The edge of a disc about an axis, in principal axes of its body (global on the ground) and
     /// of length 1: a torus, with the radius (m) of its middle circle and that of its tube.
     Disc { axis: [S; 3], radius: S, tube: S },
+    /// A thin plane cam.
+    Cam(Outline<S>),
 }
 
 /// Along which direction of a surface, both at right angles to its normal.
@@ -82,6 +87,7 @@ impl<S> Surface<S> {
         match self {
             Self::Plane(plane) => plane.body,
             Self::Sphere(sphere) => sphere.at.body::<M>(),
+            Self::Cam(at, _) => at.body::<M>(),
         }
     }
 
@@ -89,6 +95,7 @@ impl<S> Surface<S> {
         match self {
             Self::Plane(plane) => Surface::Plane(plane.without_numbers()),
             Self::Sphere(sphere) => Surface::Sphere(sphere.without_numbers()),
+            Self::Cam(at, outline) => Surface::Cam(*at, outline.without_numbers()),
         }
     }
 }
@@ -98,6 +105,7 @@ impl<S: Scalar> Surface<S> {
         match self {
             Self::Plane(plane) => Surface::Plane(plane.lifted()),
             Self::Sphere(sphere) => Surface::Sphere(sphere.lifted()),
+            Self::Cam(at, outline) => Surface::Cam(at, outline.lifted()),
         }
     }
 }
@@ -111,6 +119,7 @@ impl<S: Real> Surface<S> {
                 let arm = norm(&sphere.at.arm::<S, M>(constants));
                 arm.max(sphere.radius.abs())
             }
+            Self::Cam(at, outline) => norm(&at.arm::<S, M>(constants)).max(outline.reach()),
         }
     }
 
@@ -120,7 +129,9 @@ impl<S: Real> Surface<S> {
         match (self, shape) {
             (Self::Plane(plane), _) => plane.check().map_err(|setting| (setting, S::zero())),
             (Self::Sphere(sphere), Shape::Ball(radius)) => sphere.check(*radius),
-            (Self::Sphere(sphere), Shape::Disc { .. }) => Err(("sphere", sphere.radius)),
+            (Self::Sphere(sphere), _) => Err(("sphere", sphere.radius)),
+            (Self::Cam(_, outline), Shape::Ball(_)) => outline.check(),
+            (Self::Cam(..), _) => Err(("cam", S::zero())),
         }
     }
 }
@@ -134,6 +145,7 @@ impl<S> Shape<S> {
                 radius: (),
                 tube: (),
             },
+            Self::Cam(outline) => Shape::Cam(outline.without_numbers()),
         }
     }
 }
@@ -147,6 +159,7 @@ impl<S: Scalar> Shape<S> {
                 radius: Forward::fixed(radius),
                 tube: Forward::fixed(tube),
             },
+            Self::Cam(outline) => Shape::Cam(outline.lifted()),
         }
     }
 }
@@ -157,10 +170,11 @@ impl<S: Real> Shape<S> {
         match *self {
             Self::Ball(radius) => radius.abs(),
             Self::Disc { radius, tube, .. } => radius.abs() + tube.abs(),
+            Self::Cam(ref outline) => outline.reach(),
         }
     }
 
-    /// A length that is no radius, by its setting.
+    /// What is not acceptable of it, by its setting: a length that is no radius.
     pub(super) fn check(&self) -> Result<(), (&'static str, S)> {
         let (radius, tube) = match *self {
             Self::Ball(radius) => (radius, S::zero()),
@@ -170,6 +184,7 @@ impl<S: Real> Shape<S> {
                 }
                 (radius, tube)
             }
+            Self::Cam(ref outline) => return outline.check(),
         };
         let is_radius = |length: S| length >= S::zero() && length.is_finite();
         if !is_radius(radius) {
@@ -184,11 +199,13 @@ impl<S: Real> Shape<S> {
 
 /// The point that a surface is counted from, its velocity, and its normal and first direction
 /// there.
-struct Frame<S> {
-    base: [S; 3],
-    velocity: [S; 3],
-    normal: [S; 3],
-    along: [S; 3],
+pub(super) struct Frame<S> {
+    pub(super) base: [S; 3],
+    pub(super) velocity: [S; 3],
+    pub(super) normal: [S; 3],
+    pub(super) along: [S; 3],
+    /// How far (m) it is beyond that point, along the normal.
+    pub(super) beyond: S,
 }
 
 impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
@@ -201,9 +218,11 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
             velocity: base_velocity,
             normal,
             along,
+            beyond,
         } = match surface {
             Surface::Plane(plane) => self.on_plane(plane),
             Surface::Sphere(sphere) => self.on_sphere(sphere, &centre),
+            Surface::Cam(at, outline) => self.on_cam(*at, outline, &centre),
         };
         let across = cross(&normal, &along);
         let arm = match shape {
@@ -219,6 +238,7 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
                 let deepest = times(&within, -(*radius * length.reciprocal()));
                 plus(&deepest, &times(&normal, -*tube))
             }
+            Shape::Cam(outline) => self.deepest_of_cam(at, outline, &normal),
         };
         let point = plus(&centre, &arm);
         let way = minus(&point, &base);
@@ -231,11 +251,6 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
             None => base_velocity,
         };
         let relative = minus(&plus(&velocity, &turning), &of_surface);
-        let beyond = match surface {
-            Surface::Plane(_) => S::zero(),
-            Surface::Sphere(sphere) if sphere.is_hollow => -sphere.radius,
-            Surface::Sphere(sphere) => sphere.radius,
-        };
         Touch {
             gap: dot(&normal, &way) - beyond,
             rate: dot(&normal, &relative),
@@ -297,6 +312,7 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
             velocity,
             normal,
             along,
+            beyond: S::zero(),
         }
     }
 
@@ -306,10 +322,10 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
         let way = minus(centre, &base);
         let length = dot(&way, &way).sqrt();
         let outwards = times(&way, length.reciprocal());
-        let normal = if sphere.is_hollow {
-            outwards.map(|component| -component)
+        let (normal, beyond) = if sphere.is_hollow {
+            (outwards.map(|component| -component), -sphere.radius)
         } else {
-            outwards
+            (outwards, sphere.radius)
         };
         let within = minus(&sphere.along, &times(&normal, dot(&sphere.along, &normal)));
         let along = times(&within, dot(&within, &within).sqrt().reciprocal());
@@ -318,6 +334,7 @@ impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
             velocity,
             normal,
             along,
+            beyond,
         }
     }
 }

@@ -81,6 +81,7 @@ mod worked;
 mod written;
 
 pub use crate::nonsmooth::bearing::HasBearing;
+pub use crate::nonsmooth::cam::Cam;
 pub use crate::nonsmooth::described::{Beside, Limited};
 pub use crate::nonsmooth::handle::InteractionHandle;
 pub use crate::nonsmooth::interaction::Interaction;

@@ -5,6 +5,7 @@
 
 mod fault;
 mod pieces;
+pub(crate) mod radii;
 mod slopes;
 
 pub use fault::SplineFault;
