@@ -36,8 +36,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             film.reading("steering", "rad", sample.angle(h.steering));
         })?;
     film.warnings(&report.warnings());
-    let page = std::path::Path::new(&folder).join("bicycle.html");
-    film.save(&page)?;
-    println!("{}", page.display());
+    let folder = std::path::Path::new(&folder);
+    film.save(folder.join("bicycle.html"))?;
+    film.save_svg(folder.join("bicycle.svg"))?;
+    println!("{}", folder.join("bicycle.html").display());
     Ok(())
 }

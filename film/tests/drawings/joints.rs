@@ -1,7 +1,7 @@
 //! The figure of the guide's reference: every joint and driver with the points and axes that one
 //! writes, and the positive sense of its angle or displacement.
 
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 
 use crate::pen::{Of, Pen, V, v};
 
@@ -13,14 +13,34 @@ const HIGH: usize = 156;
 type Cell = (&'static str, &'static str, fn(&mut Pen));
 
 pub(crate) fn figure() -> String {
-    let cells = CELLS;
+    let label =
+        "Every joint and driver: points, axes, and the positive sense of angles and displacements";
+    drawn(label, &CELLS)
+}
+
+/// Those of rolling, in the guide's page on it.
+pub(crate) fn rolling() -> String {
+    let rolls =
+        |name: &str| name.starts_with("Rolling") || ["WheelPair", "KnifeEdge"].contains(&name);
+    let cells: Vec<Cell> = CELLS.into_iter().filter(|(name, ..)| rolls(name)).collect();
+    drawn(
+        "Joints that roll, and the knife edge: points and axes",
+        &cells,
+    )
+}
+
+/// Cells in rows.
+pub(crate) fn drawn<N: Display, K: Display, D: Fn(&mut Pen)>(
+    label: &str,
+    cells: &[(N, K, D)],
+) -> String {
     let (wide, high) = (COLUMNS * WIDE, cells.len().div_ceil(COLUMNS) * HIGH);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {wide} {high}\" width=\"100%\" style=\"max-width:{wide}px\" \
-         role=\"img\" aria-label=\"Every joint and driver: points, axes, and the positive sense of angles and displacements\"><style>{STYLE}</style>\
+         role=\"img\" aria-label=\"{label}\"><style>{STYLE}</style>\
          <g class=\"holonom-joints\">"
     );
-    for (place, (name, parameters, draw)) in cells.into_iter().enumerate() {
+    for (place, (name, parameters, draw)) in cells.iter().enumerate() {
         let (x, y) = (place % COLUMNS * WIDE, place / COLUMNS * HIGH);
         let (middle, base) = (WIDE / 2, HIGH - 26);
         let mut pen = Pen::default();

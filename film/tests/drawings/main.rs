@@ -1,5 +1,7 @@
 //! The drawings in the documentation are what the models and joints give.
 
+mod bicycle;
+mod contacts;
 mod joints;
 mod pen;
 
@@ -69,4 +71,15 @@ sketches! {
 #[test]
 fn the_guide_has_the_figure_of_the_joints() {
     check("runtime/src/guide/joints.svg", &joints::figure());
+    check("runtime/src/guide/rolling.svg", &joints::rolling());
+}
+
+#[test]
+fn the_guide_has_the_figure_of_the_contacts() {
+    check("runtime/src/guide/contacts.svg", &contacts::figure());
+}
+
+#[test]
+fn the_guide_has_pictures_of_a_bicycle_that_recovers() {
+    check("runtime/src/guide/bicycle.svg", &bicycle::figure());
 }

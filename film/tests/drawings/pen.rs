@@ -186,7 +186,12 @@ impl Pen {
                 edge.push(centre + far * (angle.cos() * u + angle.sin() * w));
             }
         }
-        let off = 4.0 * n * n.dot(&towards_viewer()).signum();
+        self.plate(of, n, &edge);
+    }
+
+    /// A plate of a thickness of 8 across an axis, by its edge.
+    pub(crate) fn plate(&mut self, of: Of, axis: V, edge: &[V]) {
+        let off = 4.0 * axis * axis.dot(&towards_viewer()).signum();
         let front: Vec<_> = edge.iter().map(|place| at(place + off)).collect();
         let back: Vec<_> = edge.iter().map(|place| at(place - off)).collect();
         self.fill(

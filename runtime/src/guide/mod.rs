@@ -138,6 +138,10 @@ pub mod reference {}
 #[doc = include_str!("typeset.html")]
 pub mod joint {}
 
+#[doc = "You want wheels that roll, balls on plates, skates and carts: equations of velocities."]
+#[doc = ""]
+#[doc = include_str!("rolling.svg")]
+#[doc = ""]
 #[doc = include_str!("rolling.md")]
 pub mod rolling {}
 
@@ -157,6 +161,10 @@ pub mod states {}
 #[doc = include_str!("switches.md")]
 pub mod switches {}
 
+#[doc = "You want stops, impacts, dry friction, brakes and clutches, and shapes that touch."]
+#[doc = ""]
+#[doc = include_str!("contacts.svg")]
+#[doc = ""]
 #[doc = include_str!("contact.md")]
 pub mod contact {}
 
