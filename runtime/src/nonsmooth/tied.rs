@@ -11,17 +11,24 @@ const ROUNDS: usize = 16;
 /// A change below so many `EPSILON` of the efforts ends them.
 const ENOUGH: f64 = 2.0;
 
-/// How much more freely one of several that depend on each other yields, at the most.
-const WEIGHTS: f64 = 1e3;
+/// The largest floor of what yields most: refinement then gains two digits a round.
+const YIELDING: f64 = 1e-2;
 
-/// Friction bears little of what normal efforts can bear: so many times what it can bear itself.
-const LEAVES: f64 = 0.1;
+/// Friction bears little of what normal efforts can bear: so many times what it can bear itself, or
+/// its normal effort where that is less.
+const LEAVES: f64 = 0.01;
 
 /// Floors on the diagonal of unit scale. How what depends on each other shares is known to
 /// `EPSILON` over the floor; refinement gains as many digits a round as the floor has, less those
 /// of the condition. The second one is for what the first does not end for.
 pub(super) fn floors<S: Real>() -> [S; 2] {
     [S::EPSILON.powf(1.0 / 3.0), S::EPSILON.sqrt()]
+}
+
+/// How much more freely one of several that depend on each other yields, at the most.
+fn most_freely<S: Real>() -> S {
+    let [_, least] = floors::<S>();
+    S::constant(YIELDING).quotient(least)
 }
 
 /// What holds, and what follows it.
@@ -83,8 +90,8 @@ impl<S: Real, const K: usize> Tied<S, K> {
                 *element = sum * scales[i] * scales[j];
             }
             row[i] = if scales[i] > S::zero() {
-                let most = S::constant(WEIGHTS);
-                let yields = most.min(largest.quotient(weights[i].max(S::smallest())));
+                let yields = largest.quotient(weights[i].max(S::smallest()));
+                let yields = yields.min(most_freely());
                 row[i] + floor * yields.max(S::one())
             } else {
                 S::one()
@@ -127,8 +134,8 @@ impl<S: Real, const K: usize> Tied<S, K> {
         }
         for (weight, one) in weights.iter_mut().zip(sticking) {
             if let Some((contact, coefficient)) = *one {
-                let bears = coefficient * at(&efforts, contact).abs().quotient(normal);
-                *weight = (S::constant(LEAVES) * bears).min(S::one());
+                let bears = at(&efforts, contact).abs().quotient(normal);
+                *weight = S::constant(LEAVES) * coefficient.min(S::one()) * bears;
             }
         }
         self.weighted(matrix, (offset, given), &weights)
@@ -141,7 +148,12 @@ impl<S: Real, const K: usize> Tied<S, K> {
         weights: &[S; K],
     ) -> [S; K] {
         let mut efforts = *given;
-        for floor in floors() {
+        let least = weights
+            .iter()
+            .fold(S::one(), |least, &weight| least.min(weight));
+        let freely = least.max(S::smallest()).reciprocal().min(most_freely());
+        for floor in floors::<S>() {
+            let floor = floor.min(S::constant(YIELDING).quotient(freely));
             efforts = *given;
             let factors = self.factors(matrix, weights, floor);
             if self.complete((matrix, &factors), offset, &mut efforts) {
