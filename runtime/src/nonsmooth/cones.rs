@@ -108,16 +108,17 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         [along.quotient(divisor), across.quotient(divisor)]
     }
 
-    /// The direction (global) of its slip, and whether that is beyond its beginning.
-    pub(crate) fn slip_at(&self, scene: &Scene<'_, S, M>) -> ([S; 3], bool) {
+    /// The direction (global) of its slip, its size (m/s), and whether that is beyond its beginning.
+    pub(crate) fn slip_at(&self, scene: &Scene<'_, S, M>) -> ([S; 3], S, bool) {
         if self.mode() != InteractionMode::Slipping {
-            return (self.status.slip, false);
+            return (self.status.slip, self.status.slip_size, false);
         }
         let mut reader = Reader::of(scene);
         let direction = self.direction_of_slip(&mut reader);
         let slip = self.slip(&mut reader);
-        let begun = length(slip.components) > S::constant(BEGUN) * self.status.largest;
-        (combined(&slip.directions, direction), begun)
+        let size = length(slip.components);
+        let begun = size > S::constant(BEGUN) * self.status.largest;
+        (combined(&slip.directions, direction), size, begun)
     }
 }
 
@@ -342,9 +343,9 @@ where
             (_, Next::On(_)) => InteractionMode::Free,
             (Outcome::Holds, _) => InteractionMode::Sticking,
             (Outcome::Slips(slip), next) => {
-                let directions =
-                    setting.here(|scene| tracked.slip(&mut Reader::of(scene)).directions);
-                tracked.status.slip = combined(&directions, slip);
+                let now = setting.here(|scene| tracked.slip(&mut Reader::of(scene)));
+                tracked.status.slip = combined(&now.directions, slip);
+                tracked.status.slip_size = length(now.components);
                 tracked.status.begins = !matches!(next, Next::Moving(_));
                 InteractionMode::Slipping
             }

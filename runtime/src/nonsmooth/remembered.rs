@@ -48,6 +48,7 @@ impl<S: Real> Status<S> {
             x,
             y,
             z,
+            &mut self.slip_size,
             &mut self.exerted.size,
             &mut self.held,
             &mut self.exerted.effort,

@@ -67,8 +67,11 @@ pub(crate) struct Status<S> {
     /// The direction (global) of the slip at a contact, of length 1, where its mode began or was
     /// last found to go on.
     pub(crate) slip: [S; 3],
-    /// The same at the last reading, and whether the slip is beyond its beginning there.
+    /// How large it was there (m/s).
+    pub(crate) slip_size: S,
+    /// Both at the last reading, and whether the slip is beyond its beginning there.
     pub(crate) last_slip: [S; 3],
+    pub(crate) last_size: S,
     pub(crate) has_begun: bool,
     /// The slip has begun from rest, and is so small that its acceleration tells its direction.
     pub(crate) begins: bool,
@@ -240,7 +243,9 @@ impl<S: Real> Status<S> {
             factor: S::one(),
             held: S::zero(),
             slip: [S::zero(); 3],
+            slip_size: S::zero(),
             last_slip: [S::zero(); 3],
+            last_size: S::zero(),
             has_begun: false,
             begins: false,
             exerted: Exerted::nothing(),
@@ -332,7 +337,7 @@ impl<S: Real> Status<S> {
     /// Goes on with the last reading, by which the mode does not end.
     pub(crate) fn go_on(&mut self) {
         if self.mode == InteractionMode::Slipping {
-            self.slip = self.last_slip;
+            (self.slip, self.slip_size) = (self.last_slip, self.last_size);
             self.begins &= !self.has_begun;
         }
         self.has_left |= self.reading > self.band;

@@ -20,6 +20,10 @@ use crate::state::vector::{Array, StateParts as _};
 /// Slip that a step has led to less than this part of what it is the sum of has ended.
 const ENDED: f64 = 1e-9;
 
+/// The same of slip that turns by a right angle between two looks: this part of what it was at the
+/// first of them. Where a step resolves its direction, that is at its zero alone.
+const PASSED: f64 = 0.3;
+
 /// Energy that impulses bring, of what they take and bring in all, beyond which it is no round-off.
 const GAINS: f64 = 1e-9;
 
@@ -232,7 +236,12 @@ fn stick<S: Real, M: Mechanism, const K: usize>(
             }
         }
         // Slip that turns about passes its zero at the distance that a step resolves.
-        let ended = found && length(slip) <= S::constant(ENDED) * size;
+        let small = S::constant(ENDED) * size;
+        let passed = list.get(first).filter(|first| has_ended(first));
+        let near = passed.map_or(S::zero(), |first| {
+            first.status.slip_size * S::constant(PASSED)
+        });
+        let ended = found && length(slip) <= small.max(near);
         for index in [Some(first), second].into_iter().flatten() {
             if let Some(one) = all.get_mut(index) {
                 one.rests = closed && (rests || ended);

@@ -72,7 +72,9 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
         };
         let value = tracked.reading(&scene);
         if let Some(status) = &mut self.status {
-            (status.last_slip, status.has_begun) = tracked.slip_at(&scene);
+            let (direction, size, has_begun) = tracked.slip_at(&scene);
+            (status.last_slip, status.last_size) = (direction, size);
+            status.has_begun = has_begun;
         }
         if value.to_f64().is_nan() {
             return Err(Fault::Step(StepFault::EventNotANumber {
@@ -96,6 +98,7 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
             tracked.status.reading = value;
             if let Some(status) = &self.status {
                 tracked.status.last_slip = status.last_slip;
+                tracked.status.last_size = status.last_size;
                 tracked.status.has_begun = status.has_begun;
             }
         }
