@@ -4,8 +4,8 @@
 //! cargo run -p holonom-film --example woodpecker -- FOLDER
 //! ```
 //!
-//! Lengths and masses are those of Glocker, *Dynamik von Starrkörpersystemen mit Reibung und Stößen*
-//! (1995), with true angles in place of small ones.
+//! Lengths and masses are those of Glocker, *Dynamik von Starrkörpersystemen mit Reibung und
+//! Stößen* (1995), with true angles in place of small ones.
 
 use holonom::prelude::*;
 use holonom::run::Plane;

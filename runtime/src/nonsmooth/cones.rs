@@ -108,7 +108,8 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         [along.quotient(divisor), across.quotient(divisor)]
     }
 
-    /// The direction (global) of its slip, its size (m/s), and whether that is beyond its beginning.
+    /// The direction (global) and the size (m/s) of its slip, and whether that is beyond its
+    /// beginning.
     pub(crate) fn slip_at(&self, scene: &Scene<'_, S, M>) -> ([S; 3], S, bool) {
         if self.mode() != InteractionMode::Slipping {
             return (self.status.slip, self.status.slip_size, false);

@@ -1,9 +1,9 @@
 //! The woodpecker toy: a sleeve with play slips down a pole while the bird on its spring pecks it.
 //!
-//! Glocker, Dynamik von Starrkoerpersystemen mit Reibung und Stoessen (1995); Leine, Glocker and van
-//! Campen, Nonlinear Dynamics of the Woodpecker Toy (ASME DETC 2001): angles are small there, and
-//! all gaps and slips linear in the height `y` (m) of the sleeve and the angles (rad) of sleeve and
-//! bird. Here points move so, exactly, and together have the masses and the inertias.
+//! Glocker, Dynamik von Starrkoerpersystemen mit Reibung und Stoessen (1995); Leine, Glocker and
+//! van Campen, Nonlinear Dynamics of the Woodpecker Toy (ASME DETC 2001): angles are small there,
+//! and all gaps and slips linear in the height `y` (m) of the sleeve and the angles (rad) of sleeve
+//! and bird. Here points move so, exactly, and together have the masses and the inertias.
 
 mod minimal;
 

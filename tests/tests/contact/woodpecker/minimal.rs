@@ -1,4 +1,4 @@
-//! The toy in its three coordinates, `M u' = h(q) + W^T l`, with one contact that is closed at most.
+//! The toy in its three coordinates, `M u' = h(q) + W^T l`; one contact is closed at most.
 
 use super::{
     BEAK, BEAK_GAP, BEAK_HEIGHT, BIRD, BIRD_INERTIA, BIRD_MASS, FRICTION, GRAVITY, HALF_HEIGHT,
