@@ -11,6 +11,7 @@ use holonom::{Fault, Mechanism, MechanismExt as _, Real, Rk4, StandardLagrange, 
 
 use crate::constants::{Constant, rigid};
 use crate::error::ExportError;
+use crate::interface::Turned;
 use crate::layout::{self, Element};
 use crate::limits::{Limited, limits_of};
 use crate::names::identifier;
@@ -123,6 +124,8 @@ pub struct Export<M: Mechanism, P = Double, C = <M as Mechanism>::Coordinates> {
     pub(crate) constants: Vec<Constant>,
     /// The joints with limits.
     pub(crate) limited: Vec<Limited>,
+    /// What counts turns, by the joints.
+    pub(crate) turned: Vec<Turned>,
     pub(crate) is_passing_limits: bool,
     /// Whether what one side of a choice alone needs stands behind a branch.
     pub(crate) has_branches: bool,
@@ -166,6 +169,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             has_pivot: C::HAS_PIVOTS && !F::Terms::COMPLIANT,
             constants: Vec::new(),
             limited: Vec::new(),
+            turned: Vec::new(),
             is_passing_limits: false,
             has_branches: true,
             fault: None,

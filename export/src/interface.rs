@@ -34,6 +34,8 @@ pub struct Interface {
     /// What its struct of openings is about, which has two members for each: by how much it is
     /// open, and how fast it opens.
     pub openings: Vec<Opens>,
+    /// The states that count angles over all turns, where these follow from the joints.
+    pub turned: Vec<Turned>,
     /// Whether the program has a struct of constants.
     pub has_constants: bool,
 }
@@ -62,6 +64,19 @@ pub struct Opens {
     pub unit: &'static str,
     /// The violation that a start may have.
     pub accepted: f64,
+}
+
+/// A state that counts an angle over all turns: the sum of an angle (rad) and of parts of what the
+/// joints have, all by their places among the states.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Turned {
+    /// The state that counts.
+    pub state: usize,
+    /// The angle in the described configuration (rad).
+    pub described: f64,
+    /// Coordinates of joints, and how much of each is added.
+    pub parts: Vec<(usize, f64)>,
 }
 
 /// A coordinate or a velocity, as a joint counts it.
@@ -127,6 +142,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
             },
             switches: members("switches"),
             openings: self.openings.all.iter().map(opens).collect(),
+            turned: self.turned.clone(),
             has_constants: used_constants(&self.program).iter().any(Option::is_some),
         }
     }

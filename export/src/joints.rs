@@ -9,6 +9,7 @@ use holonom::{JointCoordinates, Mechanism, Scalar};
 use crate::constants::rigid;
 use crate::error::ExportError;
 use crate::export::{CONSTANTS, Export, STATE, TIMES, argument, outputs, structure, written};
+use crate::interface::Turned;
 use crate::layout::stem;
 use crate::names::{Names, identifier};
 use crate::number::{Precision, Traced};
@@ -86,6 +87,7 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
         self.reading_joints(report, joints);
         if let Some(counted) = self.counted(report, parameters) {
             self.setting_joints(report, joints, &counted);
+            self.turned = self.turned_by_joints(report, &counted);
         }
     }
 
@@ -142,6 +144,45 @@ impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
                 .all(|(part, motion)| *part == 0.0 || is_single(motion))
         };
         all.iter().all(is_sum).then_some(all)
+    }
+
+    /// What counts turns, by the joints: as [`Self::setting_joints`] sets it.
+    fn turned_by_joints(&self, report: &JointReport, counted: &[Counted]) -> Vec<Turned> {
+        let pairs = self.pairs();
+        let state = |motion: &JointMotion| match motion.freedom {
+            Freedom::Slide => pairs + motion.coordinate,
+            _ => motion.coordinate,
+        };
+        let sums = counted.iter().map(|of| {
+            let mut parts = vec![0.0; report.motions.len()];
+            for (motion, &part) in of.parts.iter().enumerate() {
+                // With what carries its run, and what carries that.
+                let against = |&place: &usize| report.motions.get(place)?.against;
+                let run = std::iter::successors(Some(motion), against);
+                for place in run.take(report.motions.len()) {
+                    parts[place] += signed(&report.motions[place], part);
+                }
+            }
+            let parts = report.motions.iter().zip(parts);
+            let parts = parts.filter(|(_, part)| *part != 0.0);
+            Turned {
+                state: of.place - pairs,
+                described: of.start,
+                parts: parts.map(|(motion, part)| (state(motion), part)).collect(),
+            }
+        });
+        // The counter of a screw is the joint's own angle.
+        let screws = report.motions.iter().filter_map(|motion| {
+            let Freedom::Screw { counter, .. } = motion.freedom else {
+                return None;
+            };
+            Some(Turned {
+                state: pairs + counter,
+                described: 0.0,
+                parts: vec![(motion.coordinate, 1.0)],
+            })
+        });
+        screws.chain(sums).collect()
     }
 
     fn place(&self, report: &JointReport, motion: &JointMotion) -> Place {

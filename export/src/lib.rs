@@ -25,7 +25,7 @@ mod values;
 pub use c::{Rollout, Source};
 pub use error::ExportError;
 pub use export::{Export, ExportExt};
-pub use interface::{Coordinate, Interface, Opens, Quantity};
+pub use interface::{Coordinate, Interface, Opens, Quantity, Turned};
 pub use number::{Double, Precision, Single, Traced};
 #[doc(hidden)]
 pub use system::Called;

@@ -156,7 +156,10 @@ fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference refere
         }
         memcpy(to + of->first, numbers + next, of->count * sizeof *to);
         next += of->count;
-        are_states = are_states || of->kind == STATE;
+        if (of->kind == STATE) {
+            are_states = true;
+            m->now.is_set[of->first] = 1.0;
+        }
         if (of->kind == PARAMETER) {
             m->changed = PARAMETERS;
         } else if (of->kind == INPUT && m->changed == NOTHING) {
@@ -164,6 +167,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference refere
         }
     }
     if (are_states) {
+        count_turns(m);
         put(m);
     }
     forget(m);

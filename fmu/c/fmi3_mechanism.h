@@ -47,15 +47,26 @@ typedef struct {
     double accepted;
 } opening;
 
+/* A part of an angle over all turns: the state that counts it, what that is in the described
+ * configuration, and how much of a joint is added. Parts of one state are side by side. */
+typedef struct {
+    size_t state;
+    double described;
+    size_t joint;
+    double factor;
+} part;
+
 static const variable variables[] = {FMU_VARIABLES};
 static const opening openings[] = {FMU_OPENS};
 static const coordinate coordinates[] = {FMU_COORDINATES};
 /* The coordinates, each behind that which it is against. */
 static const size_t order[] = {FMU_ORDER};
+static const part parts[] = {FMU_TURNED};
 
 /* A variable, which may be compared with zero. */
 static const size_t angles = FMU_ANGLES;
 static const size_t opening_count = FMU_OPENINGS;
+static const size_t part_count = FMU_PARTS;
 
 #define VARIABLES (sizeof variables / sizeof *variables)
 
@@ -69,6 +80,8 @@ typedef struct {
     double fastest[AT_LEAST_ONE(FMU_LIMITED)];
     /* Not zero where a joint has been within its limits since the last impact. */
     double is_within[AT_LEAST_ONE(FMU_LIMITED)];
+    /* Not zero where an importer has set a state by its name. */
+    double is_set[FMU_STATES];
 } values;
 
 typedef enum { NOTHING, INPUTS, PARAMETERS } changed;
@@ -175,6 +188,23 @@ static void put(mechanism *m)
     forget(m);
 }
 
+/* Counts turns along with the joints that an importer has set, unless it has set the count as well. */
+static void count_turns(mechanism *m)
+{
+    for (size_t i = 0; i < part_count;) {
+        const size_t state = parts[i].state;
+        double angle = parts[i].described;
+        bool is_moved = false;
+        for (; i < part_count && parts[i].state == state; ++i) {
+            angle += parts[i].factor * m->now.x[parts[i].joint];
+            is_moved = is_moved || m->now.is_set[parts[i].joint] > 0.0;
+        }
+        if (is_moved && !(m->now.is_set[state] > 0.0)) {
+            m->now.x[state] = angle;
+        }
+    }
+}
+
 /* Reads them of it, where angles have turned by less than half a turn since. */
 static void read_back(mechanism *m)
 {
@@ -212,6 +242,7 @@ static void start(mechanism *m)
         m->now.fastest[k] = 0.0;
         m->now.is_within[k] = 1.0;
     }
+    memset(m->now.is_set, 0, sizeof m->now.is_set);
     m->changed = PARAMETERS;
     forget(m);
 }

@@ -58,6 +58,16 @@ fn openings(of: &Interface) -> impl Iterator<Item = String> {
     openings.chain(["{\"\", \"\", 1.0}".to_owned()])
 }
 
+/// What counts turns, a line for each part of a joint; and an end.
+fn turned(of: &Interface) -> Vec<String> {
+    let lines = of.turned.iter().flat_map(|of| {
+        let parts = of.parts.iter();
+        parts
+            .map(|(joint, part)| format!("{{{}, {:?}, {joint}, {part:?}}}", of.state, of.described))
+    });
+    lines.chain(["{0, 0.0, 0, 0.0}".to_owned()]).collect()
+}
+
 /// The text of the header.
 pub(crate) fn header(
     of: &Interface,
@@ -68,6 +78,7 @@ pub(crate) fn header(
     let states = &of.states;
     let angles = states.iter().filter(|state| state.is_angle).count();
     let (parameters, inputs) = (count(&of.parameters), count(&of.inputs));
+    let turned = turned(of);
     let mut text = format!(
         "\
 /* What the mechanism has: see fmi3_mechanism.h. Written by holonom-fmu {version}. */
@@ -88,6 +99,7 @@ pub(crate) fn header(
 #define FMU_LIMITED {limited}
 #define FMU_SWITCHES {switches}
 #define FMU_OPENINGS {opening}
+#define FMU_PARTS {parts}
 
 /* Kind, first number, count of numbers. */
 #define FMU_VARIABLES \\
@@ -111,6 +123,10 @@ pub(crate) fn header(
 #define FMU_OPENS \\
     {opens}
 
+/* What counts turns, its described angle, a coordinate of a joint, how much of it is added. */
+#define FMU_TURNED \\
+    {turned}
+
 ",
         version = env!("CARGO_PKG_VERSION"),
         n = of.name,
@@ -119,6 +135,8 @@ pub(crate) fn header(
         limited = of.gaps.len() / 3,
         switches = of.switches.len(),
         opening = of.openings.len(),
+        parts = turned.len() - 1,
+        turned = list(turned.into_iter()),
         gaps = list(gaps(of)),
         opens = list(openings(of)),
         variables = list(variables.iter().map(variable)),

@@ -5,7 +5,7 @@ use crate::compiled::{Program, random_state};
 use holonom::mechanism::{Absolute, HasInverse as _, HasMassMatrix as _, Relative};
 use holonom::prelude::*;
 use holonom::state::Vector;
-use holonom_export::{Double, Export, ExportExt as _, Single, Source};
+use holonom_export::{Double, Export, ExportExt as _, Interface, Single, Source};
 use holonom_models::{FourBar, Ur5};
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
@@ -133,8 +133,9 @@ fn joints_whose_turns_are_counted_are_set_over_all_turns() {
     let mut bodies = wound.described_state().expect("described");
     let assembled = wound.assemble(0.0, &mut bodies);
     assembled.expect("the screw turns");
-    let source = export().starting_from(&wound, &bodies).c();
-    let source = source.expect("exported");
+    let export = export().starting_from(&wound, &bodies);
+    let interface = export.interface();
+    let source = export.c().expect("exported");
     let program = program(
         &source,
         "wound_joints joints;",
@@ -177,6 +178,29 @@ fn joints_whose_turns_are_counted_are_set_over_all_turns() {
                 &format!("{angles:?}, {number}"),
             );
         }
+        counted_along(&interface, angles, &given(&expected));
+    }
+}
+
+/// What counts turns is the sum of what the joints of its list have.
+fn counted_along(interface: &Interface, [a, b, c]: [f64; 3], state: &[f64]) {
+    let known = [
+        ("shoulder_angle", a),
+        ("elbow_angle", b),
+        ("thread_angle", c),
+    ];
+    let pairs = interface.states.iter().filter(|of| of.is_angle).count();
+    assert_eq!(interface.turned.len(), 3);
+    for of in &interface.turned {
+        let parts = of.parts.iter().map(|&(place, part)| {
+            let name = &interface.states[place].quantity.name;
+            let found = known.iter().find(|(known, _)| known == name);
+            part * found.expect("an angle").1
+        });
+        let sum: f64 = of.described + parts.sum::<f64>();
+        let name = &interface.states[of.state].quantity.name;
+        // Behind the time, and two numbers of each angle.
+        near(sum, state[2 + pairs + of.state], 1e-13, name);
     }
 }
 

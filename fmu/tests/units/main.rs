@@ -4,5 +4,6 @@ mod bounced;
 mod driven;
 mod opened;
 mod refused;
+mod turned;
 mod unit;
 mod variables;
