@@ -129,6 +129,9 @@ impl Body<'_> {
                 "    if ({condition}) {{\n        return {upper}_BAD_STEP;\n    }}"
             );
         }
+        if function.is_checked {
+            self.refuse_no_numbers();
+        }
         let mut calls = function.tape.calls().iter().enumerate().peekable();
         for (place, operation) in function.tape.operations().iter().enumerate() {
             while let Some((number, (call, _))) = calls.next_if(|(_, (_, at))| *at == place) {
@@ -154,6 +157,25 @@ impl Body<'_> {
         } else if let Some(place) = function.returned {
             let value = self.name(place);
             let _ = writeln!(self.lines, "    return {value};");
+        }
+    }
+
+    /// Returns another status where a number that is compared with others, such as a distance, is
+    /// none: every comparison with it would be false. A step is compared on its own.
+    fn refuse_no_numbers(&mut self) {
+        let numbers = self
+            .function
+            .arguments
+            .iter()
+            .filter(|argument| matches!(argument.kind, Kind::Number) && argument.name != "dt");
+        let conditions = numbers.map(|argument| format!("{0} != {0}", argument.name));
+        let condition = conditions.collect::<Vec<_>>().join(" || ");
+        if !condition.is_empty() {
+            let upper = &self.text.upper;
+            let _ = writeln!(
+                self.lines,
+                "    if ({condition}) {{\n        return {upper}_NOT_FINITE;\n    }}"
+            );
         }
     }
 

@@ -4,7 +4,7 @@ use crate::compiled::{Program, random_state};
 use holonom::mechanism::{Absolute, AtTime, JointLimits, Relative, Stabilisation};
 use holonom::mechanism::{Coordinates, TracedCoordinates};
 use holonom::prelude::*;
-use holonom::state::{Array, Vector};
+use holonom::state::{Array, MovingState as _, Vector};
 use holonom::traced::{impact, projected};
 use holonom_export::{Double, Export, ExportExt as _, Source};
 use rand::{RngExt as _, SeedableRng as _};
@@ -271,6 +271,39 @@ fn gaps_impacts_and_projections_in_joint_coordinates() {
 #[test]
 fn gaps_impacts_and_projections_of_bodies() {
     compare::<Absolute>("stopped_bodies", 0.1);
+}
+
+/// What is compared with a distance or a tolerance that is none is no result.
+#[test]
+fn distances_and_tolerances_that_are_no_numbers_are_refused() {
+    let program = all_functions(&export::<Relative>("unmeasured", STOP));
+    let stepper = bars(STOP).stepper(StandardLagrange, Rk4);
+    let stepper = stepper.expect("described").joint_coordinates();
+    let start = stepper.initial_state().expect("described");
+    for rate in [-1.0, 1.0] {
+        let state = moved(&start, |place| {
+            let is_rate = place >= start.length() - start.rates_slice().len();
+            if is_rate { rate } else { 0.0 }
+        });
+        let before = [&[0.0, 0.0][..], &numbers(&state)].concat();
+        for (within, rest, tolerance) in [
+            (f64::NAN, 0.0, 1e-9),
+            (1.0, f64::NAN, 1e-9),
+            (0.0, 0.0, f64::NAN),
+        ] {
+            let given = [&before[..], &[1e-3, within, rest, tolerance]].concat();
+            let results = program.run(&given);
+            let of_limits = within.is_nan() || rest.is_nan();
+            let function = if of_limits { 1 } else { 2 };
+            assert_eq!(results[4 + function], 3.0, "{within} {rest} {tolerance}");
+            let length = before.len();
+            same(
+                &results[7 + function * length..][..length],
+                &before,
+                "refused",
+            );
+        }
+    }
 }
 
 /// The loop of the README, which steps up to a limit, bounces and goes on.
