@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 /// Words of C, C++, CUDA and HIP that no identifier may be, and macros of compilers and of
-/// `math.h`.
+/// `math.h`, `stdio.h` and `stdlib.h`.
 const WORDS: &[&str] = &[
     "and_eq",
     "or_eq",
@@ -25,6 +25,52 @@ const WORDS: &[&str] = &[
     "constinit",
     "linux",
     "unix",
+    "typeof",
+    "typeof_unqual",
+    "EOF",
+    "BUFSIZ",
+    "L_ctermid",
+    "L_tmpnam",
+    "P_tmpdir",
+    "RAND_MAX",
+    "MB_CUR_MAX",
+    "FOPEN_MAX",
+    "FILENAME_MAX",
+    "TMP_MAX",
+    "EXIT_FAILURE",
+    "EXIT_SUCCESS",
+    "HUGE",
+    "HUGE_VALL",
+    "SNAN",
+    "SNANF",
+    "SNANL",
+    "MAXFLOAT",
+    "MATH_ERRNO",
+    "MATH_ERREXCEPT",
+    "math_errhandling",
+    "DOMAIN",
+    "SING",
+    "OVERFLOW",
+    "UNDERFLOW",
+    "TLOSS",
+    "PLOSS",
+    "X_TLOSS",
+    "stdin",
+    "stdout",
+    "stderr",
+    "i386",
+    "BYTE_ORDER",
+    "BIG_ENDIAN",
+    "LITTLE_ENDIAN",
+    "PDP_ENDIAN",
+    "FD_SETSIZE",
+    "NFDBITS",
+    "WCONTINUED",
+    "WEXITED",
+    "WNOHANG",
+    "WNOWAIT",
+    "WSTOPPED",
+    "WUNTRACED",
     "HUGE_VAL",
     "HUGE_VALF",
     "INFINITY",
@@ -113,6 +159,32 @@ const WORDS: &[&str] = &[
     "xor",
 ];
 
+/// What macros of these headers begin with, and those of `stdint.h` end with, in upper case.
+const FAMILIES: &[&str] = &["M_", "FP_", "SEEK_"];
+const WIDTHS: &[&str] = &["_MIN", "_MAX", "_WIDTH"];
+const INTEGERS: &[&str] = &[
+    "INT",
+    "UINT",
+    "PTRDIFF",
+    "SIG_ATOMIC",
+    "SIZE",
+    "WCHAR",
+    "WINT",
+];
+
+/// Whether it is a word or a macro.
+fn is_reserved(name: &str) -> bool {
+    let begins = |word: &&str| {
+        let rest = name.strip_prefix(*word);
+        rest.is_some_and(|rest| rest.contains(|letter: char| letter.is_ascii_uppercase()))
+    };
+    let of_integer = || {
+        INTEGERS.iter().any(|word| name.starts_with(word))
+            && WIDTHS.iter().any(|word| name.ends_with(word))
+    };
+    WORDS.contains(&name) || FAMILIES.iter().any(begins) || of_integer()
+}
+
 /// A name such as `legs[1].knee` as an identifier: `legs_1_knee`.
 pub(crate) fn identifier(name: &str) -> String {
     let mut written = String::new();
@@ -127,7 +199,7 @@ pub(crate) fn identifier(name: &str) -> String {
     if written.is_empty() || written.starts_with(|first: char| first.is_ascii_digit()) {
         written.insert(0, '_');
     }
-    if WORDS.contains(&written.as_str()) {
+    if is_reserved(&written) {
         written.push('_');
     }
     written

@@ -1,5 +1,7 @@
 //! What a program is given and gives, by name, and derivatives of what it reads.
 
+use std::process::Command;
+
 use crate::compiled::Program;
 use holonom::mechanism::Relative;
 use holonom::prelude::*;
@@ -39,6 +41,57 @@ fn members_and_readings_have_names_and_starts() {
     );
     let angles = interface.states.iter().filter(|state| state.is_angle);
     assert_eq!(angles.count(), 1);
+}
+
+/// Macros of the compiler and of headers that are included beside a program, as the compiler lists
+/// them. Those that begin with an underscore are no names of fields, and a function needs brackets.
+fn macros() -> Vec<String> {
+    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+    let mut command = Command::new(compiler);
+    for header in ["math.h", "stdio.h", "stdlib.h", "stdint.h"] {
+        command.args(["-include", header]);
+    }
+    let listed = command.args(["-std=gnu11", "-dM", "-E", "-x", "c", "/dev/null"]);
+    let listed = listed.output().expect("there is a compiler of C");
+    let text = String::from_utf8(listed.stdout).expect("a text");
+    let names = text.lines().filter_map(|line| line.split(' ').nth(1));
+    let names = names.filter(|name| !name.starts_with('_') && !name.contains('('));
+    names.map(str::to_owned).collect()
+}
+
+#[test]
+fn no_name_is_a_macro_or_a_word_of_c() {
+    let mut taken = macros();
+    let known = [
+        "M_PI",
+        "M_SQRT1_2",
+        "FP_NAN",
+        "EOF",
+        "NULL",
+        "NAN",
+        "HUGE_VAL",
+    ];
+    assert!(
+        known.iter().all(|name| taken.iter().any(|of| of == name)),
+        "{taken:?}"
+    );
+    taken.extend(["typeof", "typeof_unqual", "constexpr", "nullptr"].map(str::to_owned));
+    let mut export =
+        Export::<CartPole, Double, Relative>::new(&CartPole::default(), StandardLagrange);
+    for name in &taken {
+        export = export.reading(name, "", |view| view.position(CartPole::HANDLES.pole).x);
+    }
+    // Fields that are like macros keep their names.
+    for name in ["M_body", "M", "FP", "MAX", "INTAKE", "spring_MAX"] {
+        export = export.reading(name, "", |view| view.position(CartPole::HANDLES.pole).x);
+        taken.push(name.to_owned());
+    }
+    let readings = export.interface().readings;
+    let (reserved, free) = taken.split_at(taken.len() - 6);
+    for (found, name) in names(&readings).into_iter().zip(reserved) {
+        assert_eq!(found, format!("{name}_"));
+    }
+    assert_eq!(names(&readings)[reserved.len()..], *free);
 }
 
 /// What a state has is the sum of what the joints of a run of parallel axes have.
