@@ -123,7 +123,7 @@ fn main() {
                     call("Relative", other);
                 }
             }
-            Err(why) => calls += &format!("tally.refused({seed}, {why:?});\n"),
+            Err(why) => calls += &format!("tally.refused({seed}, \"engine\", {why:?});\n"),
         }
     }
     let folder = std::env::var("OUT_DIR").expect("there is a folder");
