@@ -1,6 +1,7 @@
 //! Why a mechanism is not exported.
 
 use std::error::Error;
+use std::path::Path;
 use std::{fmt, io};
 
 use holonom::Fault;
@@ -46,12 +47,13 @@ pub enum ExportError {
         /// The name.
         name: String,
     },
-    /// A projection in coordinates one of whose equations is none of the bodies, so that its
-    /// violation is not known.
+    /// A projection in joint coordinates that keep an equation which the bodies leave out: its
+    /// violation is not known. `redundant = "drop"` may drop other rows of a joint in each of the
+    /// coordinates. `project` is there in absolute coordinates.
     Projection,
     /// A rollout of a program without a step: see [`Export::step`](crate::Export::step).
     Step,
-    /// A file that cannot be written.
+    /// A file or folder that cannot be written: its path and why.
     File(io::Error),
 }
 
@@ -115,6 +117,14 @@ impl ExportError {
             Fault::Start(open @ StartFault::Inconsistent { .. }) => Self::Open(open),
             other => Self::Mechanism(other),
         }
+    }
+}
+
+impl ExportError {
+    /// A file or folder that cannot be written, with its path.
+    pub(crate) fn of_file(path: &Path, error: &io::Error) -> Self {
+        let text = format!("`{}`: {error}", path.display());
+        Self::File(io::Error::new(error.kind(), text))
     }
 }
 

@@ -37,7 +37,7 @@ pub enum FmuError {
         /// What it said.
         message: String,
     },
-    /// A file that cannot be written.
+    /// A file that cannot be written: its path and why.
     File(io::Error),
 }
 

@@ -1,7 +1,7 @@
 //! A mechanism as a functional mock-up unit.
 
 use std::fs::File;
-use std::io::BufWriter;
+use std::io::{self, BufWriter};
 use std::path::Path;
 
 use holonom::formulation::Formulation;
@@ -199,7 +199,11 @@ impl<M: Mechanism, C: TracedCoordinates<M>> Fmu<M, C> {
     /// being written. Nothing is written then, but for the last.
     pub fn write(self, path: impl AsRef<Path>) -> Result<Written, FmuError> {
         let (files, written) = self.files()?;
-        archive::write(BufWriter::new(File::create(path)?), files)?;
+        let path = path.as_ref();
+        let file = File::create(path).map_err(|error| {
+            io::Error::new(error.kind(), format!("`{}`: {error}", path.display()))
+        })?;
+        archive::write(BufWriter::new(file), files)?;
         Ok(written)
     }
 

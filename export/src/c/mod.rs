@@ -40,11 +40,15 @@ impl Source {
     /// [`ExportError::File`].
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<(), ExportError> {
         let folder = folder.as_ref();
-        fs::create_dir_all(folder)?;
-        fs::write(folder.join(format!("{}.h", self.name)), &self.header)?;
-        fs::write(folder.join(format!("{}.c", self.name)), &self.source)?;
-        Ok(())
+        fs::create_dir_all(folder).map_err(|error| ExportError::of_file(folder, &error))?;
+        write_file(&folder.join(format!("{}.h", self.name)), &self.header)?;
+        write_file(&folder.join(format!("{}.c", self.name)), &self.source)
     }
+}
+
+/// Writes a file; an error has its path.
+fn write_file(path: &Path, text: &str) -> Result<(), ExportError> {
+    fs::write(path, text).map_err(|error| ExportError::of_file(path, &error))
 }
 
 impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {

@@ -1,13 +1,12 @@
 //! Rollouts: many worlds of a mechanism at once, one a thread of a GPU.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::Path;
 
 use holonom::Mechanism;
 use holonom::mechanism::TracedCoordinates;
 
-use super::{Source, Text};
+use super::{Source, Text, write_file};
 use crate::error::ExportError;
 use crate::export::{CONSTANTS, Export, INPUTS, PARAMETERS, STATE};
 use crate::number::Precision;
@@ -32,8 +31,7 @@ impl Rollout {
         let folder = folder.as_ref();
         self.program.write(folder)?;
         let path = folder.join(format!("{}_rollout.cu", self.program.name));
-        fs::write(path, &self.rollout)?;
-        Ok(())
+        write_file(&path, &self.rollout)
     }
 }
 

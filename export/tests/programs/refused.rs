@@ -76,7 +76,10 @@ fn refused() -> Vec<(ExportError, &'static str)> {
             spoiled.export(StandardLagrange).c().err(),
             "`stop` must be finite",
         ),
-        (joints().write_c("/dev/null/nowhere").err(), ""),
+        (
+            joints().write_c("/dev/null/nowhere").err(),
+            "`/dev/null/nowhere`: ",
+        ),
     ];
     let all = all.into_iter();
     all.map(|(error, text)| (error.expect(text), text))

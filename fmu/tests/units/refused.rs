@@ -35,5 +35,7 @@ fn what_is_refused_is_named() {
 #[test]
 fn a_folder_that_is_not_there_is_a_fault_of_the_file() {
     let fault = cart().write(path("nowhere/at/all.fmu"));
-    assert!(matches!(fault, Err(FmuError::File(_))), "{fault:?}");
+    assert!(matches!(&fault, Err(FmuError::File(_))), "{fault:?}");
+    let message = fault.expect_err("refused").to_string();
+    assert!(message.contains("nowhere/at/all.fmu"), "{message}");
 }
