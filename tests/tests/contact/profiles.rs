@@ -94,8 +94,8 @@ fn on_roller(speed: f64, angle: f64) -> Wanted {
 
 /// When the effort ends (s), by halving from a sampled first change of sign on.
 fn end(speed: f64, wanted: impl Fn(f64) -> Wanted) -> Option<f64> {
-    let at = |k: u32| core::f64::consts::TAU * f64::from(k) / 5e3;
-    let first = (0..5000).find(|&k| wanted(at(k)).effort <= 0.0)?;
+    let at = |k: u32| core::f64::consts::TAU * f64::from(k) / 500.0;
+    let first = (0..500).find(|&k| wanted(at(k)).effort <= 0.0)?;
     let mut between = [at(first - 1), at(first)];
     for _ in 0..60 {
         let middle = 0.5 * (between[0] + between[1]);
@@ -108,7 +108,7 @@ fn end(speed: f64, wanted: impl Fn(f64) -> Wanted) -> Option<f64> {
 fn is_as_wanted(contact: Contact, wanted: fn(f64, f64) -> Wanted) {
     // The speed from which on the effort has an end.
     let mut between = [10.0, 200.0];
-    for _ in 0..20 {
+    for _ in 0..16 {
         let middle = 0.5 * (between[0] + between[1]);
         let ends = end(middle, |angle| wanted(middle, angle)).is_some();
         between[usize::from(ends)] = middle;
