@@ -8,10 +8,9 @@ use crate::math::spline::Spline;
 use crate::math::vec3::{cross, minus, norm, plus, times};
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
-use crate::nonsmooth::place::{At, direction_on, dot, of_length_1, within};
+use crate::nonsmooth::place::{At, Frame, direction_on, dot, of_length_1, within};
 use crate::nonsmooth::profile::Profile;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::shape::Frame;
 
 /// A convex plane cam about a point of a body or of the ground, for
 /// [`Interaction::contact_of_cam`](crate::run::Interaction::contact_of_cam) and

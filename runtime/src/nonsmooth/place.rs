@@ -198,6 +198,17 @@ impl At {
     }
 }
 
+/// The point that a surface is counted from, its velocity, and its normal and first direction
+/// there.
+pub(super) struct Frame<S> {
+    pub(super) base: [S; 3],
+    pub(super) velocity: [S; 3],
+    pub(super) normal: [S; 3],
+    pub(super) along: [S; 3],
+    /// How far (m) it is beyond that point, along the normal.
+    pub(super) beyond: S,
+}
+
 /// Points that are closer than this (m) have no direction from one to the other.
 const NO_DIRECTION: f64 = 1e-30;
 

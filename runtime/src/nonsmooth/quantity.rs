@@ -9,7 +9,6 @@ use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::report::BodyKind;
 use crate::mechanism::turns;
 use crate::nonsmooth::place::At;
-use crate::nonsmooth::reader::Reader;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::shape::{Direction, Shape, Surface};
 use crate::state::vector::{Array, StateParts};
@@ -191,11 +190,6 @@ impl<S: Scalar> Quantity<S> {
         !matches!(self, Self::Difference(..) | Self::Slip(..))
     }
 
-    /// Its rate.
-    pub(crate) fn rate<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> S {
-        Reader::of(scene).rate(self)
-    }
-
     /// The rate of what is no contact.
     pub(super) fn rate_between<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> S {
         match *self {
@@ -211,16 +205,7 @@ impl<S: Scalar> Quantity<S> {
         }
     }
 
-    /// Calls with every velocity of its bodies, and its part in the rate.
-    pub(crate) fn each_part<M: Mechanism>(
-        &self,
-        scene: &Scene<'_, S, M>,
-        each: impl FnMut(usize, S),
-    ) {
-        Reader::of(scene).each_part(self, each);
-    }
-
-    /// The same of what is no contact.
+    /// Calls with every velocity of the bodies of what is no contact, and its part in the rate.
     pub(super) fn each_part_between<M: Mechanism>(
         &self,
         scene: &Scene<'_, S, M>,
@@ -250,20 +235,6 @@ impl<S: Scalar> Quantity<S> {
                 each(place, part);
             }
         }
-    }
-
-    /// Adds an effort to the forces on the bodies, by its power.
-    pub(crate) fn add_effort<M: Mechanism>(
-        &self,
-        scene: &Scene<'_, S, M>,
-        effort: S,
-        forces: &mut M::Velocities<S>,
-    ) {
-        self.each_part(scene, |place, part| {
-            if let Some(force) = forces.as_mut_slice().get_mut(place) {
-                *force = *force + effort * part;
-            }
-        });
     }
 }
 

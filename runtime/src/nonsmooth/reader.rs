@@ -6,6 +6,7 @@ use crate::nonsmooth::place::At;
 use crate::nonsmooth::quantity::Quantity;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::shape::{Shape, Surface, Touch};
+use crate::state::vector::Array;
 
 /// Reads quantities of a scene. Friction stands behind its contact: what touches there is looked at
 /// once for all of them.
@@ -69,5 +70,35 @@ impl<'s, S: Scalar, M: Mechanism> Reader<'s, S, M> {
             }
             _ => quantity.each_part_between(&scene, each),
         }
+    }
+}
+
+impl<S: Scalar> Quantity<S> {
+    /// Its rate.
+    pub(crate) fn rate<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> S {
+        Reader::of(scene).rate(self)
+    }
+
+    /// Calls with every velocity of its bodies, and its part in the rate.
+    pub(crate) fn each_part<M: Mechanism>(
+        &self,
+        scene: &Scene<'_, S, M>,
+        each: impl FnMut(usize, S),
+    ) {
+        Reader::of(scene).each_part(self, each);
+    }
+
+    /// Adds an effort to the forces on the bodies, by its power.
+    pub(crate) fn add_effort<M: Mechanism>(
+        &self,
+        scene: &Scene<'_, S, M>,
+        effort: S,
+        forces: &mut M::Velocities<S>,
+    ) {
+        self.each_part(scene, |place, part| {
+            if let Some(force) = forces.as_mut_slice().get_mut(place) {
+                *force = *force + effort * part;
+            }
+        });
     }
 }

@@ -7,7 +7,7 @@ use crate::math::vec3::{cross, minus, norm, plus, read, times};
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::cam::Outline;
-use crate::nonsmooth::place::{At, PlaceOfPlane, dot};
+use crate::nonsmooth::place::{At, Frame, PlaceOfPlane, dot};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sphere::PlaceOfSphere;
 use crate::state::vector::{Array, StateParts};
@@ -195,17 +195,6 @@ impl<S: Real> Shape<S> {
         }
         Ok(())
     }
-}
-
-/// The point that a surface is counted from, its velocity, and its normal and first direction
-/// there.
-pub(super) struct Frame<S> {
-    pub(super) base: [S; 3],
-    pub(super) velocity: [S; 3],
-    pub(super) normal: [S; 3],
-    pub(super) along: [S; 3],
-    /// How far (m) it is beyond that point, along the normal.
-    pub(super) beyond: S,
 }
 
 impl<S: Scalar, M: Mechanism> Scene<'_, S, M> {
