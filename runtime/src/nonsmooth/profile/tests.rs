@@ -121,7 +121,7 @@ fn what_is_no_profile_is_named() {
         Profile::of(Box::leak(Box::new(natural))).check(),
         Err(("period of a profile", 0.0))
     );
-    let short = Spline::periodic(uniform_knots(0.0, 6.28), [1.0; 721]);
+    let short = Spline::periodic(uniform_knots(0.0, 6.25), [1.0; 721]);
     assert_eq!(
         named(Box::leak(Box::new(short))),
         Err("period of a profile")
