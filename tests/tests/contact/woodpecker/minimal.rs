@@ -112,12 +112,12 @@ fn moved(motion: &Motion, closed: Closed, step: f64) -> Motion {
 fn guards(motion: &Motion, closed: Closed) -> Vec<f64> {
     let [q, u] = coordinates(motion);
     let mut all = Vec::new();
-    for contact in 0..3 {
+    for (contact, gap) in GAPS.into_iter().enumerate() {
         let [normal, _] = rows(contact);
         all.push(if closed.is_some_and(|(at, _)| at == contact) {
             1.0
         } else {
-            GAPS[contact] + normal.dot(&q)
+            gap + normal.dot(&q)
         });
     }
     if let Some((contact, way)) = closed {
