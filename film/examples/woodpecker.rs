@@ -27,7 +27,9 @@ struct Woodpecker {
     foot: Fixed,
     #[body(
         mass = 3e-4, inertia = [5e-9, 5e-9, 5e-9],
-        shape = tube(outer = 0.0045, inner = 0.0031, from = [0.0, 0.0, -0.0058], to = [0.0, 0.0, 0.0058])
+        shape = tube(
+            outer = 0.0045, inner = 0.0031, from = [0.0, 0.0, -0.0058], to = [0.0, 0.0, 0.0058]
+        )
     )]
     sleeve: Body,
     #[body(
