@@ -8,6 +8,7 @@ use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::checked::check_all;
+use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{Show, Tracked};
 use crate::nonsmooth::task::Task;
@@ -160,11 +161,35 @@ where
         state: &C::State<S>,
         is_moved: bool,
     ) -> Result<C::State<S>, Fault> {
+        let before = self.forces.list_mut().map(|list| list.clone());
+        let next = self.switched_where(time, state, [is_moved, true]);
+        if !self.tracked().iter().any(|tracked| tracked.status.is_tried) {
+            return next;
+        }
+        let sticks = |tracked: &Tracked<S, M>| tracked.mode() == InteractionMode::Sticking;
+        let tried = self.forces.list_mut().map(|list| list.clone());
+        if let (Some(list), Some(before)) = (self.forces.list_mut(), before) {
+            *list = before;
+        }
+        // What would stick is led to its end, see `pace.rs`.
+        let tried = tried.iter().flat_map(|list| list.as_ref());
+        for (tracked, tried) in self.tracked_mut().iter_mut().zip(tried) {
+            tracked.status.ends |= next.is_ok() && tried.status.is_tried && sticks(tried);
+        }
+        self.switched_where(time, state, [is_moved, false])
+    }
+
+    fn switched_where(
+        &mut self,
+        time: S,
+        state: &C::State<S>,
+        how: [bool; 2],
+    ) -> Result<C::State<S>, Fault> {
         let mut change = C::Velocities::<S>::zeros();
         self.change_list(|dynamics, list| {
             let evaluator = dynamics.evaluator();
             evaluator.set_up(time, state, |setting, _| {
-                let task = Task::Strike(&mut change, is_moved);
+                let task = Task::Strike(&mut change, how);
                 evaluator.interact(setting, list, task)
             })
         })?;

@@ -17,6 +17,7 @@ use crate::nonsmooth::cone_problem::{
 use crate::nonsmooth::law::Friction;
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
+use crate::nonsmooth::pace::{Haste, Pace};
 use crate::nonsmooth::place::dot;
 use crate::nonsmooth::reader::Reader;
 use crate::nonsmooth::scene::Scene;
@@ -98,7 +99,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let size = length([along, across]);
         let known = self.status.slip;
         let none = part::<S>(AT_REST, ROUND_OFF) * self.status.largest;
-        if size <= none.max(S::smallest()) {
+        if self.status.ends || size <= none.max(S::smallest()) {
             let [x, y] = slip.directions.each_ref().map(|way| dot(way, &known));
             let size = length([x, y]).max(S::smallest());
             return [x.quotient(size), y.quotient(size)];
@@ -108,18 +109,24 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         [along.quotient(divisor), across.quotient(divisor)]
     }
 
-    /// The direction (global) and the size (m/s) of its slip, and whether that is beyond its
-    /// beginning.
-    pub(crate) fn slip_at(&self, scene: &Scene<'_, S, M>) -> ([S; 3], S, bool) {
+    /// The direction (global) of its slip, and when a step from there ends at the latest.
+    pub(crate) fn slip_at(&self, scene: &Scene<'_, S, M>) -> ([S; 3], Option<Pace<S>>) {
         if self.mode() != InteractionMode::Slipping {
-            return (self.status.slip, self.status.slip_size, false);
+            return (self.status.slip, None);
         }
         let mut reader = Reader::of(scene);
         let direction = self.direction_of_slip(&mut reader);
         let slip = self.slip(&mut reader);
         let size = length(slip.components);
-        let begun = size > S::constant(BEGUN) * self.status.largest;
-        (combined(&slip.directions, direction), size, begun)
+        let pace = self.status.pace_of(size, scene.time);
+        (combined(&slip.directions, direction), pace)
+    }
+
+    /// How far (m/s) slip that begins is beyond its beginning.
+    pub(crate) fn begun(&self, scene: &Scene<'_, S, M>) -> Option<S> {
+        let beginning = self.status.beginning.filter(|_| self.begins())?;
+        let slip = self.slip(&mut Reader::of(scene));
+        Some(length(slip.components) - beginning)
     }
 }
 
@@ -320,7 +327,9 @@ where
         roles: roles(list, &motions, &slips),
     };
     let solution = solved(&problem, setting, list)?;
-    let sizes = exerted(list, &solution.efforts);
+    let mut sizes = exerted(list, &solution.efforts);
+    let towards = (&solution.efforts, &slips);
+    hasten(list, (&columns.delassus, &offset), towards, &mut sizes);
     for index in 0..K {
         let diagonal = columns.delassus[index][index];
         let alone = if diagonal > S::zero() {
@@ -346,8 +355,10 @@ where
             (Outcome::Slips(slip), next) => {
                 let now = setting.here(|scene| tracked.slip(&mut Reader::of(scene)));
                 tracked.status.slip = combined(&now.directions, slip);
-                tracked.status.slip_size = length(now.components);
                 tracked.status.begins = !matches!(next, Next::Moving(_));
+                let goes_on = tracked.status.before == InteractionMode::Slipping;
+                tracked.status.ends &= goes_on;
+                tracked.status.has_turned &= goes_on;
                 InteractionMode::Slipping
             }
             (Outcome::Slides(sign), _) => slides(sign),
@@ -359,7 +370,15 @@ where
         tracked.status.rests = false;
         tracked.status.exerted = sizes[index];
         let efforts = [solution.efforts[index], alone, alone];
-        setting.here(|scene| tracked.enter(mode, scene, efforts, &motions[index]));
+        setting.here(|scene| {
+            tracked.enter(mode, scene, efforts, &motions[index]);
+            let size = length(tracked.slip(&mut Reader::of(scene)).components);
+            let beginning = S::constant(BEGUN) * tracked.status.largest;
+            tracked.status.beginning = tracked.status.beginning_at(beginning, scene.time);
+            let pace = tracked.status.pace_of(size, scene.time);
+            (tracked.status.pace, tracked.status.known_pace) = (pace, pace);
+            tracked.status.has_turned |= pace.is_some();
+        });
     }
     // What bears nothing does not rub.
     for index in 0..K {
@@ -461,6 +480,7 @@ fn exerted<S: Real, M: Mechanism, const K: usize>(
                 effort,
                 capacity: tracked.capacity(None),
                 size: S::zero(),
+                haste: Haste::none(),
             };
         };
         let places = tangents_of(list, contact);
@@ -471,8 +491,26 @@ fn exerted<S: Real, M: Mechanism, const K: usize>(
             effort,
             capacity: coefficient.unwrap_or(S::zero()) * at(efforts, contact),
             size: length(places.map(read)),
+            haste: Haste::none(),
         }
     })
+}
+
+/// Adds how fast slip changes that turns: by accelerations without efforts, and by directions.
+fn hasten<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    (matrix, offset): (&[[S; K]; K], &[S; K]),
+    (efforts, slips): (&[S; K], &[[S; 2]; K]),
+    sizes: &mut [Exerted<S>; K],
+) {
+    for contact in 0..K {
+        let [Some(first), Some(second)] = tangents_of(list, contact) else {
+            continue;
+        };
+        if let (Some(exerted), Some(&slip)) = (sizes.get_mut(first), slips.get(first)) {
+            exerted.haste = Haste::of((matrix, offset), efforts, [first, second], slip);
+        }
+    }
 }
 
 /// Adds the efforts that hold, and those of what slips on contacts, to a solution, which has those
@@ -501,6 +539,7 @@ where
     }
     follow(list, &slips, &mut tied);
     let mut efforts = [S::zero(); K];
+    let mut hastes = None;
     if chosen.contains(&true) {
         let columns = Columns::of(setting, list, &chosen)?;
         let sticking = sticking(list);
@@ -523,10 +562,14 @@ where
             for (effort, change) in efforts.iter_mut().zip(change) {
                 *effort = *effort + change;
             }
+            hastes = Some((columns.delassus, accelerations)).filter(|_| show.is_some());
         }
     }
     if let Some(show) = show {
         let mut sizes = exerted(list, &efforts);
+        if let Some((matrix, offset)) = &hastes {
+            hasten(list, (matrix, offset), (&efforts, &slips), &mut sizes);
+        }
         setting.here(|scene| {
             for (exerted, tracked) in sizes.iter_mut().zip(list) {
                 if let Some(effort) = tracked.sliding_effort(scene) {

@@ -11,6 +11,7 @@ use crate::nonsmooth::cones::{self, are_rough};
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::pace::Haste;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::slipping::{Refusal, Slipping, held};
 use crate::nonsmooth::status::{Exerted, Show, Tracked};
@@ -170,6 +171,7 @@ where
                     effort: tracked.sliding_effort(scene).unwrap_or(effort),
                     capacity: tracked.capacity(loads.map(|loads| loads[index])),
                     size: S::zero(),
+                    haste: Haste::none(),
                 }
             })
         });

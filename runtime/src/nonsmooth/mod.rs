@@ -23,7 +23,7 @@
 //! Contacts: `contact.rs` is what a user writes, `shape.rs` how shapes lie and move against what
 //! they touch (`place.rs`, `sphere.rs`, `cam.rs` over `profile.rs`). `reader.rs` looks once for all
 //! that asks. Their friction: `cones.rs`, over `cone_problem.rs` and `tied.rs`, which know no
-//! mechanism.
+//! mechanism, and `pace.rs`, by which steps follow slip that ends.
 //!
 //! The reasons are in `docs/decisions/027-interactions.md`, `032-friction-by-load.md` and
 //! `051-contacts-with-friction.md`.
@@ -47,6 +47,7 @@ mod law;
 pub(crate) mod loads;
 pub(crate) mod mode;
 mod motion;
+pub(crate) mod pace;
 pub(crate) mod place;
 mod profile;
 pub(crate) mod quantity;

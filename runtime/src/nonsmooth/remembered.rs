@@ -7,6 +7,7 @@ use crate::integrate::Memory;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::pace::Pace;
 use crate::nonsmooth::status::{Impact, Status, Tracked};
 
 /// In the order in which checkpoints count them.
@@ -43,12 +44,12 @@ impl<S: Real> Status<S> {
         memory.flag(&mut self.rests);
         memory.flag(&mut self.is_saturated);
         memory.flag(&mut self.begins);
+        memory.flag(&mut self.ends);
         let [x, y, z] = &mut self.slip;
         let numbers = [
             x,
             y,
             z,
-            &mut self.slip_size,
             &mut self.exerted.size,
             &mut self.held,
             &mut self.exerted.effort,
@@ -63,6 +64,11 @@ impl<S: Real> Status<S> {
         for number in numbers {
             memory.number(number);
         }
+        memory.optional(&mut self.beginning);
+        self.exerted.haste.remember(memory);
+        memory.flag(&mut self.has_turned);
+        Pace::remember(&mut self.pace, memory);
+        Pace::remember(&mut self.known_pace, memory);
         self.remember_side(memory);
         let blow = Impact {
             time: S::zero(),

@@ -7,6 +7,7 @@ use crate::nonsmooth::bearing::Bearing;
 use crate::nonsmooth::interaction::Interaction;
 use crate::nonsmooth::law::{Friction, Law, Tangent};
 use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::pace::{Haste, Pace};
 use crate::nonsmooth::place::dot;
 use crate::nonsmooth::reader::Reader;
 use crate::nonsmooth::scene::Scene;
@@ -48,6 +49,8 @@ pub struct Exerted<S> {
     pub(crate) capacity: S,
     /// The size (N) of the friction of a contact in both directions together.
     pub(crate) size: S,
+    /// By what the slip of a contact changes.
+    pub(crate) haste: Haste<S>,
 }
 
 /// What is done with what all interactions exert, in their order.
@@ -67,14 +70,23 @@ pub(crate) struct Status<S> {
     /// The direction (global) of the slip at a contact, of length 1, where its mode began or was
     /// last found to go on.
     pub(crate) slip: [S; 3],
-    /// How large it was there (m/s).
-    pub(crate) slip_size: S,
-    /// Both at the last reading, and whether the slip is beyond its beginning there.
+    /// When (s) a step that begins with the mode ends at the latest, by how the slip turns.
+    pub(crate) pace: Option<Pace<S>>,
+    /// The same by the last reading by which the mode goes on.
+    pub(crate) known_pace: Option<Pace<S>>,
+    /// The direction and that time by the last reading.
     pub(crate) last_slip: [S; 3],
-    pub(crate) last_size: S,
-    pub(crate) has_begun: bool,
+    pub(crate) last_pace: Option<Pace<S>>,
     /// The slip has begun from rest, and is so small that its acceleration tells its direction.
     pub(crate) begins: bool,
+    /// It is beyond its beginning at this size (m/s); at the first look where that is not known.
+    pub(super) beginning: Option<S>,
+    /// The slip has turned since its mode began.
+    pub(super) has_turned: bool,
+    /// The slip is so little that its direction stays until it ends.
+    pub(crate) ends: bool,
+    /// It is tried whether that sticks.
+    pub(crate) is_tried: bool,
     /// What it exerted at the last look into a step, or where its mode began.
     pub(crate) exerted: Exerted<S>,
     /// The effort with which the mode began.
@@ -189,6 +201,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             effort,
             capacity,
             size,
+            ..
         } = self.status.exerted;
         if let Some(tangent) = law.tangent() {
             // Both directions have one mode, which the first one tells.
@@ -230,6 +243,7 @@ impl<S: Real> Exerted<S> {
             effort: S::zero(),
             capacity: S::zero(),
             size: S::zero(),
+            haste: Haste::none(),
         }
     }
 }
@@ -243,11 +257,15 @@ impl<S: Real> Status<S> {
             factor: S::one(),
             held: S::zero(),
             slip: [S::zero(); 3],
-            slip_size: S::zero(),
+            pace: None,
+            known_pace: None,
             last_slip: [S::zero(); 3],
-            last_size: S::zero(),
-            has_begun: false,
+            last_pace: None,
             begins: false,
+            beginning: None,
+            has_turned: false,
+            ends: false,
+            is_tried: false,
             exerted: Exerted::nothing(),
             share: S::zero(),
             since: S::zero(),
@@ -337,8 +355,12 @@ impl<S: Real> Status<S> {
     /// Goes on with the last reading, by which the mode does not end.
     pub(crate) fn go_on(&mut self) {
         if self.mode == InteractionMode::Slipping {
-            (self.slip, self.slip_size) = (self.last_slip, self.last_size);
-            self.begins &= !self.has_begun;
+            self.begins &= self.beginning.is_some();
+            self.known_pace = self.last_pace;
+            self.has_turned |= self.last_pace.is_some();
+            if !self.ends {
+                self.slip = self.last_slip;
+            }
         }
         self.has_left |= self.reading > self.band;
         if self.mode == InteractionMode::Free && self.reading.is_finite() {

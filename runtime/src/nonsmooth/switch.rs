@@ -20,10 +20,6 @@ use crate::state::vector::{Array, StateParts as _};
 /// Slip that a step has led to less than this part of what it is the sum of has ended.
 const ENDED: f64 = 1e-9;
 
-/// The same of slip that turns by a right angle between two looks: this part of what it was at the
-/// first of them. Where a step resolves its direction, that is at its zero alone.
-const PASSED: f64 = 0.3;
-
 /// Energy that impulses bring, of what they take and bring in all, beyond which it is no round-off.
 const GAINS: f64 = 1e-9;
 
@@ -126,11 +122,11 @@ impl<S: Real> Struck<S> {
 
 /// Impulses of limits and dogs at an instant: writes what they change of the velocities, and what
 /// may follow into the statuses. Brings to rest what comes to rest: what was held is, unless a
-/// handler has moved it.
+/// handler has moved it. So is little slip, where it is tried whether that sticks.
 pub(crate) fn impulses<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
     list: &mut [Tracked<S, M>; K],
-    is_moved: bool,
+    [is_moved, tries]: [bool; 2],
     change: &mut C::Velocities<S>,
 ) -> Result<(), Fault>
 where
@@ -197,7 +193,7 @@ where
         let rests = is_slow || was_at_rest && status.mode != InteractionMode::Free;
         one.rests = one.is_chosen() && (rests || hops[index]);
     }
-    stick(list, &mut all);
+    stick(list, &mut all, tries);
     let rests = all.each_ref().map(|one| one.rests);
     let last = Factors::of(&columns.delassus, &rests);
     let last = last.solve(&all.each_ref().map(|one| one.motion.rate));
@@ -213,8 +209,9 @@ where
 
 /// Friction of contacts rests in both directions, where its contact does.
 fn stick<S: Real, M: Mechanism, const K: usize>(
-    list: &[Tracked<S, M>; K],
+    list: &mut [Tracked<S, M>; K],
     all: &mut [Struck<S>; K],
+    tries: bool,
 ) {
     // Slip that a step has led to its zero ends, and so does what ends together with it.
     let has_ended = |tracked: &Tracked<S, M>| {
@@ -235,13 +232,14 @@ fn stick<S: Real, M: Mechanism, const K: usize>(
                 size = size.max(one.motion.size);
             }
         }
-        // Slip that turns about passes its zero at the distance that a step resolves.
-        let small = S::constant(ENDED) * size;
-        let passed = list.get(first).filter(|first| has_ended(first));
-        let near = passed.map_or(S::zero(), |first| {
-            first.status.slip_size * S::constant(PASSED)
-        });
-        let ended = found && length(slip) <= small.max(near);
+        let slip = length(slip);
+        let mut ended = found && slip <= S::constant(ENDED) * size;
+        if let (Some(first), Some(_)) = (list.get_mut(first), second) {
+            let status = &mut first.status;
+            ended |= status.ends && status.is_found;
+            status.is_tried = tries && closed && !rests && !ended && status.is_little(slip);
+            ended |= status.is_tried;
+        }
         for index in [Some(first), second].into_iter().flatten() {
             if let Some(one) = all.get_mut(index) {
                 one.rests = closed && (rests || ended);

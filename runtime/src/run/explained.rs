@@ -65,7 +65,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
                 step: step.to_f64(),
             });
         }
-        equations.explained(fault, self.course.settings.absolute, last_good)
+        let tolerance = self.course.settings.tolerance;
+        equations.explained(fault, tolerance.map(|of| of.absolute), last_good)
     }
 }
 

@@ -5,6 +5,7 @@ use crate::integrate::TimeSpan;
 use crate::math::scalar::Real;
 use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::pace::end_of_step;
 use crate::run::driver::Driver;
 use crate::run::leg::{Begun, Leg};
 use crate::run::past::Past;
@@ -95,11 +96,15 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     }
 
     /// Where (s) an integration ends that begins at a time, at the latest: at a break, a
-    /// controller, a given time of a handler or a switch of the time alone.
+    /// controller, a given time of a handler or a switch of the time alone, and as far as slip that
+    /// turns lets a step go.
     fn next_end(&mut self, from: S, end: S) -> Result<S, Fault> {
         let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
         let until = self.next_instant(until);
-        self.next_switch(from, until)
+        let until = self.next_switch(from, until)?;
+        let interactions = self.march.equations().interactions();
+        let tolerance = self.course.settings.tolerance;
+        Ok(end_of_step(interactions, (from, until), tolerance))
     }
 
     /// The next instant (s) of a controller or of a handler at given times, up to a time.

@@ -79,7 +79,7 @@ where
 {
     Settings {
         fixed_step: integrator.fixed_step(),
-        absolute: integrator.tolerance().map(|of| of.absolute),
+        tolerance: integrator.tolerance(),
         budget: integrator.budget().unwrap_or(usize::MAX),
         interacts: P::Forces::INTERACTS,
         may_defer: P::Coordinates::IS_RELATIVE && !P::Forces::PRESENT,

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 
 use crate::dynamics::equations::Equations;
 use crate::error::Fault;
-use crate::integrate::{Counts, Memory, TimeSpan};
+use crate::integrate::{Counts, Memory, TimeSpan, Tolerance};
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 
@@ -14,8 +14,8 @@ use crate::mechanism::kernels::Mechanism;
 pub(crate) struct Settings<S> {
     /// The step (s) of a method that does not choose it.
     pub(crate) fixed_step: Option<S>,
-    /// The absolute tolerance of a method that controls its error.
-    pub(crate) absolute: Option<S>,
+    /// The tolerance of a method that controls its error.
+    pub(crate) tolerance: Option<Tolerance<S>>,
     /// How many evaluations a run may take.
     pub(crate) budget: usize,
     /// Whether interactions act.

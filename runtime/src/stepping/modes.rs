@@ -3,6 +3,7 @@
 use super::guard::{Guard, Guards, Visit};
 use crate::dynamics::evaluate::Evaluate;
 use crate::error::{Fault, StepFault};
+use crate::integrate::Tolerance;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::scene::Scene;
@@ -10,10 +11,19 @@ use crate::nonsmooth::status::Status;
 
 /// The modes of all interactions.
 pub(crate) struct Modes<S> {
+    /// That of the method, where it has one.
+    tolerance: Option<Tolerance<S>>,
     /// How many interactions there are.
     count: usize,
     /// When (s) the efforts were found that the statuses have.
     efforts_at: Option<S>,
+}
+
+/// When a step ends at the latest by the slip of one, as it was known at the last look; or where
+/// slip is beyond its beginning, from which on it gives its direction itself.
+struct Ahead<S> {
+    number: usize,
+    tolerance: Option<Tolerance<S>>,
 }
 
 /// The mode of one.
@@ -24,8 +34,12 @@ struct Mode<'m, S> {
 }
 
 impl<S: Real> Modes<S> {
-    pub(crate) fn of<M: Mechanism>(equations: &dyn Evaluate<S, M>) -> Self {
+    pub(crate) fn of<M: Mechanism>(
+        equations: &dyn Evaluate<S, M>,
+        tolerance: Option<Tolerance<S>>,
+    ) -> Self {
         Self {
+            tolerance,
             count: equations.interactions().len(),
             efforts_at: None,
         }
@@ -41,6 +55,10 @@ impl<S: Real, M: Mechanism> Guards<S, M> for Modes<S> {
                 number,
                 status: None,
                 efforts_at: &mut self.efforts_at,
+            })?;
+            visit(&mut Ahead {
+                number,
+                tolerance: self.tolerance,
             })?;
         }
         Ok(())
@@ -72,9 +90,7 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
         };
         let value = tracked.reading(&scene);
         if let Some(status) = &mut self.status {
-            let (direction, size, has_begun) = tracked.slip_at(&scene);
-            (status.last_slip, status.last_size) = (direction, size);
-            status.has_begun = has_begun;
+            (status.last_slip, status.last_pace) = tracked.slip_at(&scene);
         }
         if value.to_f64().is_nan() {
             return Err(Fault::Step(StepFault::EventNotANumber {
@@ -98,8 +114,7 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
             tracked.status.reading = value;
             if let Some(status) = &self.status {
                 tracked.status.last_slip = status.last_slip;
-                tracked.status.last_size = status.last_size;
-                tracked.status.has_begun = status.has_begun;
+                tracked.status.last_pace = status.last_pace;
             }
         }
     }
@@ -120,6 +135,49 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
         if let Some(tracked) = equations.interactions_mut().get_mut(self.number) {
             tracked.status.is_found = is_found;
         }
+        Ok(())
+    }
+}
+
+impl<S: Real, M: Mechanism> Guard<S, M> for Ahead<S> {
+    fn value(
+        &mut self,
+        equations: &mut dyn Evaluate<S, M>,
+        time: S,
+        bodies: &M::State<S>,
+    ) -> Result<S, Fault> {
+        let Some(tracked) = equations.interactions().get(self.number) else {
+            return Ok(-S::one());
+        };
+        let scene = Scene::<S, M> {
+            constants: equations.constants(),
+            time,
+            bodies,
+        };
+        let pace = tracked.status.known_pace;
+        let until = pace.and_then(|pace| pace.end_of_step(self.tolerance));
+        let beyond = until.map_or(-S::one(), |until| time - until);
+        Ok(tracked.begun(&scene).unwrap_or(beyond))
+    }
+
+    fn is_passed(&self, value: S) -> bool {
+        value >= S::zero()
+    }
+
+    fn beyond(&self, value: S) -> S {
+        value
+    }
+
+    fn keep(&mut self, _equations: &mut dyn Evaluate<S, M>, _value: S, _root: Option<S>) {}
+
+    fn go_on(&mut self, _equations: &mut dyn Evaluate<S, M>) {}
+
+    fn take(
+        &mut self,
+        _equations: &mut dyn Evaluate<S, M>,
+        _time: S,
+        _value: S,
+    ) -> Result<(), Fault> {
         Ok(())
     }
 }

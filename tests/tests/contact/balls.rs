@@ -7,8 +7,8 @@ use holonom::run::{Impact, InteractionMode, Plane, Sphere};
 
 use super::tight;
 
-const GRAVITY: f64 = 9.81;
-const RADIUS: f64 = 0.1;
+pub(crate) const GRAVITY: f64 = 9.81;
+pub(crate) const RADIUS: f64 = 0.1;
 
 /// A ball of 7 kg: 2/5 m r^2 = 0.028 kg m^2.
 #[derive(Mechanism)]

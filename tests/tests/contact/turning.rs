@@ -1,9 +1,11 @@
-//! A ball on a turntable: slip that begins while its direction turns, and slip that only turns.
+//! Balls on a turntable and across a slope: slip that begins or ends while its direction turns, and
+//! slip that only turns.
 
+use holonom::nalgebra::Vector3;
 use holonom::prelude::*;
 use holonom::run::{InteractionMode, Plane};
 
-const GRAVITY: f64 = 9.81;
+use super::balls::{Bowling, GRAVITY, RADIUS, start};
 
 /// A ball of 10 g, which touches by its centre, 1 m from the axis of a table.
 #[derive(Mechanism)]
@@ -89,6 +91,16 @@ fn slip_begins_while_its_direction_turns() {
     let wanted = [0, 1].map(|k| 2.0 * fine[k] - coarse[k]);
     assert!((place.x - wanted[0]).abs() < 1e-6, "{place} {wanted:?}");
     assert!((place.y - wanted[1]).abs() < 1e-6, "{place} {wanted:?}");
+
+    // So do long fixed steps, which are shortened there.
+    let fixed = table
+        .simulation(StandardLagrange, Rk4::every(1e-2))
+        .interactions(contact)
+        .run(0.0..=end, every(end), |_| ())
+        .expect("it slips");
+    let view = table.view(end, &fixed.state).expect("a view");
+    let off = (view.position(h.ball) - place).norm();
+    assert!(off < 1e-7, "{off:e}");
 }
 
 /// In the axes of a table of 100 rad/s slip turns by more than a right angle in a step.
@@ -115,5 +127,144 @@ fn slip_that_turns_is_no_reversal() {
             (speed - 0.02 * GRAVITY * 0.3).abs() < 1e-5,
             "{step}: {speed}"
         );
+    }
+}
+
+/// Slip `s` of a ball of radius `r` across a slope, with `ds/dt = d - f s/|s|`: along the slope
+/// `d = g sin a` drives it, and `f = 7/2 mu g cos a` is against it. With `u = tan` of half the
+/// angle from `d` to `s`, and `k = f/d`, time, slip and the way of the slip are powers of `u`.
+struct Across {
+    drive: f64,
+    k: f64,
+    start: [f64; 2],
+    /// The scale of the slip, and `u` at the start.
+    scale: f64,
+    from: f64,
+}
+
+impl Across {
+    fn new(slope: f64, friction: f64, start: [f64; 2]) -> Self {
+        let drive = GRAVITY * slope.sin();
+        let k = 3.5 * friction / slope.tan();
+        let size = start[0].hypot(start[1]);
+        let from = (size - start[0]) / start[1];
+        let scale = start[1] / from.powf(k);
+        Self {
+            drive,
+            k,
+            start,
+            scale,
+            from,
+        }
+    }
+
+    /// `(from^n - u^n) / n`.
+    fn power(&self, n: f64, u: f64) -> f64 {
+        (self.from.powf(n) - u.powf(n)) / n
+    }
+
+    fn time(&self, u: f64) -> f64 {
+        let k = self.k;
+        0.5 * self.scale / self.drive * (self.power(k - 1.0, u) + self.power(k + 1.0, u))
+    }
+
+    /// Where it rolls.
+    fn end(&self) -> Option<f64> {
+        (self.k > 1.0).then(|| self.time(0.0))
+    }
+
+    /// The way of the ball (m) until a time (s): `v = v0 + 5/7 d t + 2/7 (s - s0)`.
+    fn way(&self, time: f64) -> [f64; 2] {
+        let slips = self.end().map_or(time, |end| time.min(end));
+        // By its logarithm: slip that goes on comes as near to its drive as powers of ten.
+        let (mut low, mut high) = (-600.0, self.from.ln());
+        for _ in 0..100 {
+            let middle: f64 = 0.5 * (low + high);
+            if self.time(middle.exp()) > slips {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let ends = slips < time;
+        let (k, u) = (2.0 * self.k, if ends { 0.0 } else { high.exp() });
+        let factor = self.scale * self.scale / self.drive;
+        let slipped = [
+            0.25 * factor * (self.power(k - 2.0, u) - self.power(k + 2.0, u)),
+            0.5 * factor * (self.power(k - 1.0, u) + self.power(k + 1.0, u)),
+        ];
+        let driven = [5.0 / 14.0 * self.drive * time * time, 0.0];
+        [0, 1].map(|at| {
+            let [start, slipped] = [self.start[at], slipped[at]];
+            start * time + driven[at] + 2.0 / 7.0 * (slipped - start * time)
+        })
+    }
+}
+
+/// What a run of a ball across a slope has come to: when it rolled first (s), and its way (m).
+macro_rules! thrown {
+    ($method:expr, $slope:expr, $friction:expr, $start:expr, $end:expr) => {{
+        let (bowling, h) = (Bowling::default(), Bowling::HANDLES);
+        let (sine, cosine): (f64, f64) = $slope.sin_cos();
+        let [down, across] = $start;
+        let plane = Plane::on_ground([0.0; 3], [sine, 0.0, cosine]);
+        let place = [RADIUS * sine, 0.0, RADIUS * cosine];
+        let start = start(place, [down * cosine, across, -down * sine], [0.0; 3]);
+        let contact = Interaction::contact(h.ball, plane)
+            .radius(RADIUS)
+            .with_friction($friction);
+        let [_, along, _] = Interaction::handles(&contact);
+        let mut rolls = None;
+        let report = bowling
+            .simulation(StandardLagrange, $method)
+            .initial_state(start)
+            .interactions(contact)
+            .run(0.0..=$end, every_step(), |sample| {
+                if rolls.is_none() && sample.mode(along) == Ok(InteractionMode::Sticking) {
+                    rolls = Some(sample.time());
+                }
+            })
+            .expect("it slips");
+        let view = bowling.view($end, &report.state).expect("a view");
+        let way = view.position(h.ball) - Vector3::from(place);
+        (rolls, [way.x * cosine - way.z * sine, way.y])
+    }};
+}
+
+/// Slip that ends while it turns, at fixed steps as well, also where friction hardly holds what
+/// drives it; and slip that passes close by zero and goes on.
+#[test]
+fn slip_across_a_slope_ends_where_its_closed_form_does() {
+    for (slope, friction, start, end) in [
+        (0.3_f64, 0.2, [0.3, 0.1], 0.2),
+        (0.3, 0.1, [0.02, 0.01], 0.2),
+        (0.01, 0.3, [0.0, 0.5], 0.1),
+        (0.3, 0.08, [-0.2, 0.001], 0.2),
+    ] {
+        let form = Across::new(slope, friction, start);
+        let tolerance = Tolerance {
+            relative: 1e-10,
+            absolute: 1e-11,
+        };
+        let controlled = DormandPrince::new(tolerance);
+        for (near, (rolls, way)) in [
+            (1e-10, thrown!(controlled, slope, friction, start, end)),
+            (1e-7, thrown!(Rk4::every(1e-3), slope, friction, start, end)),
+        ] {
+            let wanted = form.way(end);
+            assert_eq!(rolls.is_some(), form.end().is_some(), "{slope} {friction}");
+            if let (Some(rolls), Some(end)) = (rolls, form.end()) {
+                assert!(
+                    (rolls - end).abs() < near,
+                    "{slope} {friction}: {rolls} {end}"
+                );
+            }
+            for (way, wanted) in way.into_iter().zip(wanted) {
+                assert!(
+                    (way - wanted).abs() < near,
+                    "{slope} {friction}: {way} {wanted}"
+                );
+            }
+        }
     }
 }

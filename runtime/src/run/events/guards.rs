@@ -43,7 +43,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let is_fresh = hybrid.is_fresh;
         let seen = self.march.equations().seen();
         let mut guards = OfRun {
-            modes: Modes::of(self.march.equations()),
+            modes: Modes::of(self.march.equations(), self.course.settings.tolerance),
             // A continuous law holds nothing. One that switches again and again within a fixed step
             // is stiffer than that step resolves; a controlled step follows as often as it is.
             unresolved: match self.march.estimate() {

@@ -11,6 +11,7 @@ use crate::mechanism::turns;
 use crate::nonsmooth::checked::check_all;
 use crate::nonsmooth::handle::{InteractionHandle, effort_of, engage, named};
 use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::pace::end_of_step;
 use crate::nonsmooth::status::Impact;
 use crate::run::stepper::{Stepper, Steps};
 use crate::stepping::followed::bodies_by_halves;
@@ -21,6 +22,9 @@ use crate::stepping::root::first_root;
 /// How often modes may change within a step, besides what each interaction may.
 const CHANGES: usize = 8;
 const OF_EACH: usize = 4;
+
+/// How often a step may be shortened at once by slip that turns.
+const PACES: usize = 4096;
 
 impl<P, S: Real, M: Mechanism, K> Stepper<P, K>
 where
@@ -112,32 +116,39 @@ where
     fn moved(&mut self, state: &State<P>, dt: S) -> Result<State<P>, Fault> {
         let start = self.time();
         let end = start + dt;
-        let (mut time, mut left) = (start, dt);
+        let mut time = start;
         let scheme = self.scheme;
         let changes = CHANGES + OF_EACH * self.dynamics.tracked().len();
+        let (mut changed, mut paced) = (0, 0);
         let dynamics = &mut self.dynamics;
         let mut next = dynamics.switched(start, state, true)?;
-        for _ in 0..changes {
-            let mut modes = Modes::of(dynamics);
-            let step = StepWithin::take(scheme, dynamics, (time, &next), left)?;
+        while changed < changes && paced < PACES {
+            let stop = end_of_step(dynamics.tracked(), (time, end), None);
+            let length = if time == start && stop == end {
+                dt
+            } else {
+                stop - time
+            };
+            let mut modes = Modes::of(dynamics, None);
+            let step = StepWithin::take(scheme, dynamics, (time, &next), length)?;
             let near = dynamics.bodies(&next);
             let mut within = Within {
                 dynamics: &mut *dynamics,
                 state_at: |at: S| {
-                    if at == end {
+                    if at == stop {
                         *step.end()
                     } else {
-                        step.at((at - time).quotient(left))
+                        step.at((at - time).quotient(length))
                     }
                 },
                 since: time,
                 near,
             };
-            let found = first_root(&mut within, &mut modes, (time, end), true)?;
+            let found = first_root(&mut within, &mut modes, (time, stop), true)?;
             let (found, near) = (found.map(|found| found.time), within.near);
-            let reached = found.unwrap_or(end);
+            let reached = found.unwrap_or(stop);
             next = if found.is_some() {
-                step.at((reached - time).quotient(left))
+                step.at((reached - time).quotient(length))
             } else {
                 *step.end()
             };
@@ -146,19 +157,28 @@ where
             if let Some(held) = dynamics.held(reached, &next)? {
                 next = held;
             }
-            if found.is_none() {
+            if found.is_none() && stop == end {
                 return Ok(next);
             }
+            let ends = dynamics
+                .tracked()
+                .iter()
+                .any(|tracked| tracked.status.is_found);
+            (changed, paced) = if ends {
+                (changed + 1, 0)
+            } else {
+                (changed, paced + 1)
+            };
             next = dynamics.switched(reached, &next, false)?;
-            (time, left) = (reached, end - reached);
-            if left <= time.ulp() {
+            time = reached;
+            if end - time <= time.ulp() {
                 return Ok(next);
             }
         }
         let list = dynamics.tracked();
         Err(Fault::Mode(ModeFault::Endless {
             joint: list.first().map_or("", |first| first.interaction.name()),
-            changes,
+            changes: changed,
             time: time.to_f64(),
         }))
     }

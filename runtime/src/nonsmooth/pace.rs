@@ -1,0 +1,190 @@
+//! How far a step may go where slip turns while it ends.
+//!
+//! Near its zero the slip `s` of a contact has `ds/dt = d - f s/|s|`: what drives it, less friction.
+//! Its direction goes over into that of `d` at the rate `|d|/|s|`, which no step across the zero
+//! resolves. So steps shrink with the slip, until it is little. If what is little would stick, it
+//! ends: its direction stays, up to where the slip along it is zero, and an impulse takes what is
+//! left beside. That and the friction that then holds do together what friction would have done.
+//! Only the way of the slip until then, of the size `|s|^2 / (f - |d|)`, is another.
+
+use crate::integrate::{Memory, Tolerance};
+use crate::math::scalar::Real;
+use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::cone_problem::length;
+use crate::nonsmooth::mode::InteractionMode;
+use crate::nonsmooth::sizes::{ROUND_OFF, part};
+use crate::nonsmooth::status::{Status, Tracked};
+use crate::nonsmooth::tied::at;
+
+/// Within a step slip changes by this part of itself at the most.
+const PART: f64 = 0.5;
+
+/// What drives slip aside by less than this part of all that acts on it has not turned it.
+const STRAIGHT: f64 = 1e-9;
+
+/// Slip that changes by less than this part of all that acts on it stays nearly as it is: steps that
+/// follow it would be too many.
+const LASTS: f64 = 1e-5;
+
+/// Slip below this part of what it is the sum of is little.
+const LITTLE: f64 = 1e-7;
+
+/// Slip of so many tolerances is resolved by a method that controls its error.
+const RESOLVED: f64 = 1e3;
+
+/// The least step, in units in the last place of the time.
+const LEAST: f64 = 64.0;
+
+/// What makes slip faster, slower, and turns it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Haste<S> {
+    /// How fast (m/s^2) it changes at the most while it turns.
+    turning: S,
+    /// Whether it turns here.
+    turns: bool,
+    grows: bool,
+}
+
+impl<S: Real> Haste<S> {
+    pub(crate) fn none() -> Self {
+        Self {
+            turning: S::zero(),
+            turns: false,
+            grows: false,
+        }
+    }
+
+    /// Of slip in a direction, by accelerations without efforts, and by those of the efforts along
+    /// both directions of its contact.
+    pub(super) fn of<const K: usize>(
+        (matrix, offset): (&[[S; K]; K], &[S; K]),
+        efforts: &[S; K],
+        pair: [usize; 2],
+        [x, y]: [S; 2],
+    ) -> Self {
+        let mut parts = [[S::zero(); 2]; 2];
+        for (place, index) in pair.into_iter().enumerate() {
+            let [drive, friction] = &mut parts[place];
+            *drive = at(offset, index);
+            for (column, (&w, &effort)) in matrix[index].iter().zip(efforts).enumerate() {
+                let sum = if pair.contains(&column) {
+                    &mut *friction
+                } else {
+                    &mut *drive
+                };
+                *sum = w.fused(effort, *sum);
+            }
+        }
+        let [[drive_x, friction_x], [drive_y, friction_y]] = parts;
+        let all = length([drive_x, drive_y]) + length([friction_x, friction_y]);
+        let aside = (drive_x * y - drive_y * x).abs();
+        let along = (drive_x + friction_x) * x + (drive_y + friction_y) * y;
+        let (two, grows) = (S::constant(2.0), along >= S::zero());
+        Self {
+            turning: match grows {
+                _ if along.abs() <= S::constant(LASTS) * all => S::zero(),
+                true => (two * aside).max(all.quotient(two * two)),
+                false => all,
+            },
+            grows,
+            turns: aside > S::constant(STRAIGHT) * all,
+        }
+    }
+
+    pub(super) fn remember(&mut self, memory: &mut Memory<'_, S>) {
+        memory.number(&mut self.turning);
+        memory.flag(&mut self.turns);
+        memory.flag(&mut self.grows);
+    }
+}
+
+/// When a step ends at the latest, by slip that turns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pace<S> {
+    /// When (s).
+    until: S,
+    /// How large (m/s) slip that grows was where this was found; zero of slip that shrinks.
+    grown: S,
+    /// The sum of which it is a part.
+    largest: S,
+}
+
+impl<S: Real> Pace<S> {
+    /// When (s) a step ends at the latest. A method that controls its error follows slip that grows
+    /// by itself, as soon as its tolerance resolves that.
+    pub(crate) fn end_of_step(&self, tolerance: Option<Tolerance<S>>) -> Option<S> {
+        let is_resolved = tolerance.is_some_and(|tolerance| {
+            let error = tolerance.relative.fused(self.largest, tolerance.absolute);
+            self.grown > S::constant(RESOLVED) * error
+        });
+        (!is_resolved).then_some(self.until)
+    }
+
+    pub(super) fn remember(pace: &mut Option<Self>, memory: &mut Memory<'_, S>) {
+        let mut is_there = pace.is_some();
+        memory.flag(&mut is_there);
+        let nothing = Self {
+            until: S::zero(),
+            grown: S::zero(),
+            largest: S::zero(),
+        };
+        let mut read = pace.unwrap_or(nothing);
+        if is_there {
+            for number in [&mut read.until, &mut read.grown, &mut read.largest] {
+                memory.number(number);
+            }
+        }
+        *pace = is_there.then_some(read);
+    }
+}
+
+/// When (s) a step ends at the latest that begins at a time and may end at another, by a method
+/// with a tolerance or one of fixed steps.
+pub(crate) fn end_of_step<S: Real, M: Mechanism>(
+    list: &[Tracked<S, M>],
+    (from, until): (S, S),
+    tolerance: Option<Tolerance<S>>,
+) -> S {
+    let paces = list.iter().filter_map(|tracked| tracked.status.pace);
+    let ends = paces.filter_map(|pace| pace.end_of_step(tolerance));
+    ends.filter(|&end| end > from).fold(until, S::min)
+}
+
+impl<S: Real> Status<S> {
+    /// When a step ends at the latest in which slip of a size (m/s) at a time (s) turns.
+    pub(super) fn pace_of(&self, size: S, time: S) -> Option<Pace<S>> {
+        let Haste {
+            turning,
+            turns,
+            grows,
+        } = self.exerted.haste;
+        let has_turned = self.has_turned || turns;
+        let is_paced = self.follows() && has_turned && turning > S::zero();
+        is_paced.then(|| {
+            let step = (S::constant(PART) * size).quotient(turning);
+            Pace {
+                until: time + step.max(S::constant(LEAST) * time.ulp()),
+                grown: if grows { size } else { S::zero() },
+                largest: self.largest,
+            }
+        })
+    }
+
+    /// The size (m/s) up to which slip begins, where steps can resolve it at a time (s): they cannot
+    /// of what begins from rest.
+    pub(super) fn beginning_at(&self, size: S, time: S) -> Option<S> {
+        let least = S::constant(4.0 * LEAST) * time.ulp() * self.exerted.haste.turning;
+        let is_resolved = self.begins && size > S::zero() && S::constant(PART) * size > least;
+        is_resolved.then_some(size)
+    }
+
+    /// Whether slip of a size (m/s) is so little that it ends if it would stick.
+    pub(super) fn is_little(&self, size: S) -> bool {
+        self.follows() && size <= part::<S>(LITTLE, ROUND_OFF) * self.largest
+    }
+
+    /// Whether it slips in a direction that follows the slip.
+    fn follows(&self) -> bool {
+        self.mode == InteractionMode::Slipping && !self.begins && !self.ends
+    }
+}
