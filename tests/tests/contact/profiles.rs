@@ -126,9 +126,8 @@ fn is_as_wanted(contact: Contact, wanted: fn(f64, f64) -> Wanted) {
         let lift = [first.displacement, first.slope];
         lifts(speed, contact, lift, |angle| wanted(speed, angle), 1e-9)
     };
-    assert_eq!(lifts(0.5 * critical), None);
     assert_eq!(lifts(0.999 * critical), None);
-    for speed in [1.001 * critical, 1.2 * critical, 2.0 * critical] {
+    for speed in [1.001 * critical, 2.0 * critical] {
         let wanted = end(speed, SAMPLES, |angle| wanted(speed, angle)).expect("it ends");
         let found = lifts(speed).expect("it lifts off");
         assert!((found - wanted).abs() < 1e-9, "{speed}: {found} {wanted}");
@@ -154,8 +153,8 @@ fn a_roller_is_pressed_by_its_spline() {
 /// many and then by golden section.
 fn distance([x, y]: [f64; 2]) -> f64 {
     let beyond = |angle: f64| x * angle.cos() + y * angle.sin() - DWELLS.value(angle);
-    let step = core::f64::consts::TAU / 2000.0;
-    let angles = (0..2000).map(|k| f64::from(k) * step);
+    let step = core::f64::consts::TAU / 400.0;
+    let angles = (0..400).map(|k| f64::from(k) * step);
     let best = angles.fold(0.0, |best, angle| {
         if beyond(angle) > beyond(best) {
             angle
@@ -187,7 +186,7 @@ fn a_roller_stays_at_its_radius_and_comes_back_to_it() {
     cam.simulation(StandardLagrange, DormandPrince::new(tight()))
         .initial_state(start)
         .interactions([contact])
-        .run(0.0..=0.4, every(1e-3), |sample| -> Result<(), Fault> {
+        .run(0.0..=0.25, every(2e-3), |sample| -> Result<(), Fault> {
             // In the axes of the cam.
             let (sine, cosine) = (speed * sample.time()).sin_cos();
             let at = sample.position(h.follower);
@@ -200,7 +199,7 @@ fn a_roller_stays_at_its_radius_and_comes_back_to_it() {
             Ok(())
         })
         .expect("it turns");
-    assert!(counts[0] > 50 && counts[1] > 50, "{counts:?}");
+    assert!(counts[0] > 20 && counts[1] > 20, "{counts:?}");
 }
 
 #[test]
