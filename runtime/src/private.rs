@@ -17,10 +17,10 @@ pub use crate::mechanism::table::{Sources, angle_of, least};
 pub use crate::mechanism::{
     Absolute, AngleParts, Block, BodyInfo, BodyKind, Carrier, CountsTurns, DisplacementParts,
     Driven, ElementPlace, ExplicitTime, Force, ForceInfo, ForceParts, Freedom, HasAngle,
-    HasCoriolis, HasDisplacement, HasGravity, HasInverse, HasJacobian, HasMassMatrix, HasTwoAngles,
-    Joint, JointCounter, JointInfo, JointMotion, JointRates, JointReport, Kernel, Marker,
-    MarkerKind, Operations, Pivot, PointHandle, PointInfo, Rank, RedundantRow, Relative, Shape,
-    ShapeKind, Stabilisation, StateHandle, StateInfo, Terms, ValueHandle, ValueInfo,
+    HasContact, HasCoriolis, HasDisplacement, HasGravity, HasInverse, HasJacobian, HasMassMatrix,
+    HasTwoAngles, Joint, JointCounter, JointInfo, JointMotion, JointRates, JointReport, Kernel,
+    Marker, MarkerKind, Operations, Pivot, PointHandle, PointInfo, Rank, RedundantRow, Relative,
+    Shape, ShapeKind, Stabilisation, StateHandle, StateInfo, Terms, ValueHandle, ValueInfo,
 };
 pub use crate::state::sums::zero_if_finite;
 pub use crate::state::{Array, JointState, State};
@@ -187,9 +187,11 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 /// a driver, with `y` a function of time, whose effort can be read
 /// ([`Sample::driving_effort`](crate::Sample::driving_effort)), `angle about axis;` and
 /// `displacement x;`, which can be read ([`View::angle`](crate::View::angle),
-/// [`View::displacement`](crate::View::displacement)), and `motion ..;`, which says how the second
-/// of two bodies moves against the first: motions separated by commas, each carried by those before
-/// it, or `none`.
+/// [`View::displacement`](crate::View::displacement)), `contact point, normal;`, the point where the
+/// second body touches the first, and the direction from there into the second
+/// ([`View::contact`](crate::View::contact)), and `motion ..;`, which says how the second of two
+/// bodies moves against the first: motions separated by commas, each carried by those before it, or
+/// `none`.
 ///
 /// | motion | |
 /// |---|---|
@@ -393,6 +395,8 @@ impl crate::mechanism::HasAngle for AnyJoint {}
 impl crate::mechanism::HasTwoAngles for AnyJoint {}
 
 impl crate::mechanism::HasDisplacement for AnyJoint {}
+
+impl crate::mechanism::HasContact for AnyJoint {}
 
 impl crate::mechanism::Driven for AnyJoint {
     const ROW: usize = 0;

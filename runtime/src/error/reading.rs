@@ -56,6 +56,11 @@ pub enum ReadingFault {
         /// The field of the joint.
         joint: &'static str,
     },
+    /// The point of contact of an interaction that is no contact.
+    NoContact {
+        /// What it is called.
+        interaction: &'static str,
+    },
     /// A trajectory does not know the time that it is asked for.
     OutsideTrajectory {
         /// The time (s).
@@ -129,6 +134,10 @@ impl fmt::Display for ReadingFault {
             Self::NoSuchLimits { joint } => write!(
                 f,
                 "the run has no limits of `{joint}`: neither its description nor its interactions do, or `.without_limits()` leaves them out"
+            ),
+            Self::NoContact { interaction } => write!(
+                f,
+                "interaction `{interaction}` is no contact of a shape with a surface: it has no point of contact"
             ),
             Self::OutsideTrajectory { time, start, end } => {
                 let [time, from, to] = [time, start, end].map(Given);

@@ -38,6 +38,7 @@ crate::joint! {
         let arm = (radius - crown) * down - crown * i.normal;
         let above = j.center - i.point;
         dot(i.normal, above + arm);
+        contact j.center + arm, i.normal;
         let slip = rate(above) - cross(angular_velocity(i), above)
             + cross(angular_velocity(i, j), arm);
         dot(i.normal.normals(), slip);
@@ -54,6 +55,7 @@ crate::joint! {
     pub joint RollingBall(i, j; center: Point, point: Point, normal: Axis, radius: Length) {
         let above = j.center - i.point;
         dot(i.normal, above) - radius;
+        contact j.center - radius * i.normal, i.normal;
         let slip = rate(above) - cross(angular_velocity(i), above)
             - radius * cross(angular_velocity(i, j), i.normal);
         dot(i.normal.normals(), slip);
@@ -82,6 +84,7 @@ crate::joint! {
         let line = j.center - i.bowl;
         let outward = line / gap;
         0.5 * (dot(outward, line) - gap);
+        contact j.center + radius * outward, -outward;
         let slip = rate(line) - cross(angular_velocity(i), line)
             + radius * cross(angular_velocity(i, j), outward);
         dot(cross(i.axis.normals(), outward), slip);

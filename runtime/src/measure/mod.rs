@@ -7,6 +7,7 @@ mod acceleration;
 pub(crate) mod access;
 mod angle_rates;
 pub(crate) mod angles;
+pub(crate) mod contact;
 pub(crate) mod interacting;
 pub(crate) mod load;
 pub(crate) mod momentum;
@@ -26,6 +27,7 @@ pub(crate) mod written;
 
 pub use angle_rates::{BryantAngleRates, EulerAngleRates, RollPitchYawRates};
 pub use angles::{BryantAngles, EulerAngles, RollPitchYaw};
+pub use contact::ContactPoint;
 pub use interacting::{Heeding, Interacting, Unlimited};
 pub use load::{AppliedForces, ForceLaw, NoForces};
 #[cfg(feature = "serde")]

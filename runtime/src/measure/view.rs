@@ -11,9 +11,11 @@ use crate::math::scalar::Scalar;
 use crate::math::vec3::{minus, read, square, times};
 use crate::math::without_bounds::copied;
 use crate::measure::access::{MechanismExt, Pose};
+use crate::measure::contact::ContactPoint;
 use crate::measure::reaction::{Wrench, wrench};
 use crate::mechanism::handle::{
-    BodyHandle, Driven, ForceHandle, HasAngle, HasDisplacement, JointHandle, StateHandle,
+    BodyHandle, Driven, ForceHandle, HasAngle, HasContact, HasDisplacement, JointHandle,
+    StateHandle,
 };
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
@@ -260,6 +262,18 @@ impl<'a, S: Scalar, M: Mechanism, K: Borrow<M::Constants<S>>> View<'a, S, M, K> 
     #[must_use]
     pub fn displacement_rate<J: HasDisplacement>(&self, joint: JointHandle<M, J>) -> S {
         self.displacement_parts(joint.index()).rate
+    }
+
+    /// The contact of a joint: where its second body touches the first.
+    #[must_use]
+    pub fn contact<J: HasContact>(&self, joint: JointHandle<M, J>) -> ContactPoint<S> {
+        let (time, state) = (self.time, self.state);
+        ContactPoint::of(M::joint_contact(
+            self.constants(),
+            time,
+            state,
+            joint.index(),
+        ))
     }
 
     /// The value of a state of the user's own, in the unit that its rate and its start have.

@@ -69,6 +69,14 @@ pub trait HasTwoAngles: Joint {}
 )]
 pub trait HasDisplacement: Joint {}
 
+/// A joint whose definition has a contact, such as [`RollingWheel`](crate::joints::RollingWheel).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no contact",
+    label = "the definition of this joint names no contact",
+    note = "a contact can be read from joints that roll, such as `RollingWheel` or `RollingBall`"
+)]
+pub trait HasContact: Joint {}
+
 /// A joint whose definition drives a quantity: one of its rows is `quantity - law(time)`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` drives nothing",

@@ -480,6 +480,18 @@ pub trait Mechanism: Sized + 'static {
         DisplacementParts::none()
     }
 
+    /// The contact of a joint by its index, as its definition states it, in global axes: the point
+    /// (m), the normal, and the velocity of the material of the second body there against that of
+    /// the first (m/s). Zeros for a joint without one.
+    fn joint_contact<S: Scalar>(
+        _constants: &Self::Constants<S>,
+        _time: S,
+        _state: &Self::State<S>,
+        _joint: usize,
+    ) -> [[S; 3]; 3] {
+        [[S::zero(); 3]; 3]
+    }
+
     /// Positive where a joint is on the side that is meant, of the configurations that satisfy its
     /// equations; what is least where its definition says more than one thing (`require .. > 0`),
     /// and 1 where it says nothing.

@@ -37,8 +37,8 @@ pub use coordinates::{
     Absolute, ByAllRows, Coordinates, Equations, Evaluation, First, Prepared, Relative, RightSide,
 };
 pub use handle::{
-    CountsTurns, Driven, Force, HasAngle, HasDisplacement, HasTwoAngles, Joint, PointHandle,
-    StateHandle, ValueHandle,
+    CountsTurns, Driven, Force, HasAngle, HasContact, HasDisplacement, HasTwoAngles, Joint,
+    PointHandle, StateHandle, ValueHandle,
 };
 /// Makes a struct a part that mechanisms may have, once or several times, mirrored or turned:
 /// [`guide::parts`](crate::guide::parts).

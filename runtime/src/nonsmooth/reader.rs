@@ -1,6 +1,7 @@
 //! Quantities of a list, read in its order.
 
 use crate::math::scalar::Scalar;
+use crate::measure::contact::ContactPoint;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::place::At;
 use crate::nonsmooth::quantity::Quantity;
@@ -74,6 +75,11 @@ impl<'s, S: Scalar, M: Mechanism> Reader<'s, S, M> {
 }
 
 impl<S: Scalar> Quantity<S> {
+    /// Where a contact is; `None` of what is none.
+    pub(crate) fn contact<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> Option<ContactPoint<S>> {
+        Reader::of(scene).touch(self).map(Touch::contact)
+    }
+
     /// Its rate.
     pub(crate) fn rate<M: Mechanism>(&self, scene: &Scene<'_, S, M>) -> S {
         Reader::of(scene).rate(self)

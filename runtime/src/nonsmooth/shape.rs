@@ -4,6 +4,7 @@ use crate::forward::Forward;
 use crate::math::quaternion::{normalised, rotate_back};
 use crate::math::scalar::{Real, Scalar};
 use crate::math::vec3::{cross, minus, norm, plus, read, times};
+use crate::measure::contact::ContactPoint;
 use crate::mechanism::handle::BodyHandle;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::cam::Outline;
@@ -59,6 +60,11 @@ pub(crate) struct Touch<S> {
 }
 
 impl<S: Scalar> Touch<S> {
+    /// Point, normal and slip.
+    pub(super) fn contact(&self) -> ContactPoint<S> {
+        ContactPoint::of([self.point, self.normal, self.slip_vector(true)])
+    }
+
     /// The rate of the gap, or the slip in a direction (m/s).
     pub(super) fn rate_along(&self, direction: Option<Direction>) -> S {
         let [along, across] = self.slip;

@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use crate::dynamics::evaluate::Evaluate;
 use crate::error::{Fault, ReadingFault};
 use crate::math::scalar::Real;
+use crate::measure::contact::ContactPoint;
 use crate::measure::reaction::Wrench;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::Evaluation;
@@ -279,6 +280,27 @@ impl<'a, S: Real, M: Mechanism> Sample<'a, S, M> {
         interaction: InteractionHandle<M>,
     ) -> Result<Option<Impact<S>>, ReadingFault> {
         Ok(self.tracked(interaction)?.status.impact)
+    }
+
+    /// Where the shape of a contact is nearest to its surface, closed or not.
+    ///
+    /// # Errors
+    /// [`ReadingFault::NoSuchInteraction`], [`ReadingFault::NoSuchLimits`];
+    /// [`ReadingFault::NoContact`] of an interaction that is none.
+    pub fn contact_of(
+        &self,
+        interaction: InteractionHandle<M>,
+    ) -> Result<ContactPoint<S>, ReadingFault> {
+        let interaction = &self.tracked(interaction)?.interaction;
+        let scene = Scene::<S, M> {
+            constants: self.view.constants(),
+            time: self.time(),
+            bodies: self.state(),
+        };
+        let contact = interaction.quantity.contact(&scene);
+        contact.ok_or(ReadingFault::NoContact {
+            interaction: interaction.name(),
+        })
     }
 
     fn tracked(

@@ -88,6 +88,10 @@ fn a_ball_runs_in_horizontal_circles() {
             let expected = mass * (gravity * up - turn * turn * gap * inward);
             let reaction = sample.reaction(h.contact, h.ball)?;
             assert!((reaction.force - expected).norm() < 1e-8 * expected.norm());
+            let touches = sample.contact(h.contact);
+            assert!((touches.position - of_bowl * direction).norm() < 1e-9);
+            assert!((touches.normal + direction).norm() < 1e-9);
+            assert!(touches.slip.norm() < 1e-9 * (1.0 + spins.norm()));
             let moment = radius * direction.cross(&expected);
             assert!((reaction.moment - moment).norm() < 1e-9 * expected.norm());
             Ok(())

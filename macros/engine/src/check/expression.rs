@@ -12,9 +12,10 @@ use crate::model::{ElementKind, Extent, Function, Parameter, ParameterKind, Term
 use crate::syntax::ungroup;
 
 /// Words that begin statements, or join two halves of one.
-const STATEMENTS: [&str; 9] = [
+const STATEMENTS: [&str; 10] = [
     "along",
     "angle",
+    "contact",
     "displacement",
     "drive",
     "force",

@@ -81,6 +81,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
         angle: None,
         angles: None,
         displacement: None,
+        contact: None,
         requirements: Vec::new(),
         motions: None,
         drive: None,
@@ -101,6 +102,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
         angle,
         angles,
         displacement,
+        contact,
         requirements,
         motions,
         drive,
@@ -141,6 +143,7 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
             angle,
             angles,
             displacement,
+            contact,
             requirements,
             motions,
             drive,
@@ -179,6 +182,23 @@ fn turns<'t>(terms: impl Iterator<Item = &'t Term>) -> Vec<Turn> {
     turns
 }
 
+/// The velocity of the material of the second body at a point against that of the first there.
+fn slip(point: &Term) -> Term {
+    let of = |body: usize, is_minus: bool| {
+        let origin = Term::Origin(body);
+        let arm = Term::Sum(vec![(false, point.clone()), (true, origin.clone())]);
+        let spin = Term::Spin {
+            from: None,
+            to: body,
+        };
+        [
+            (is_minus, Term::Rate(Box::new(origin))),
+            (is_minus, Term::Cross(Box::new(spin), Box::new(arm))),
+        ]
+    };
+    Term::Sum([of(1, false), of(0, true)].concat())
+}
+
 /// Tells definitions apart, by their text without spaces.
 fn fingerprint(text: &str) -> u64 {
     wire::hash(text.bytes().filter(|byte| !byte.is_ascii_whitespace()))
@@ -195,6 +215,7 @@ struct Reader<'a> {
     angle: Option<Turn>,
     angles: Option<[usize; 2]>,
     displacement: Option<Term>,
+    contact: Option<[Term; 3]>,
     requirements: Vec<Term>,
     motions: Option<Vec<Motion>>,
     drive: Option<usize>,
@@ -271,6 +292,9 @@ impl Reader<'_> {
             }
             Statement::Angle { keyword, axes } => self.read_angle(keyword, axes, faults),
             Statement::Displacement(keyword, expr) => self.read_displacement(keyword, expr, faults),
+            Statement::Contact(keyword, point, normal) => {
+                self.read_contact(keyword, [point, normal], faults);
+            }
             Statement::Require(keyword, written) => self.require(keyword, written, faults),
             Statement::Motion {
                 keyword, motions, ..
@@ -367,6 +391,27 @@ impl Reader<'_> {
             )
         {
             self.displacement = Some(term);
+        }
+    }
+
+    fn read_contact(&mut self, keyword: &Ident, written: [&syn::Expr; 2], faults: &mut Faults) {
+        let [point, normal] = written.map(|expr| self.context.vector(expr, faults));
+        let (name, count) = (&self.syntax.name, self.syntax.bodies.len());
+        if self.contact.is_some() {
+            faults.at(keyword, "a joint has one contact; this is the second");
+        } else if count < 2 {
+            let message = format!("a contact needs two bodies; `{name}` has {count}");
+            faults.at(keyword, message);
+        } else if self.joint_only(keyword, "a contact", faults)
+            && let (Some(point), Some(normal)) = (point, normal)
+        {
+            let message = "a contact depends on positions alone; its slip is read with it";
+            let of_rates = has_rate(&point, written[0], message, faults)
+                || has_rate(&normal, written[1], message, faults);
+            if !of_rates {
+                let slip = slip(&point);
+                self.contact = Some([point, normal, slip]);
+            }
         }
     }
 

@@ -142,10 +142,11 @@ impl Choice {
             && defaults.all(|term| self.of(term).stays())
     }
 
-    /// Whether the displacement that can be read keeps its sign.
-    fn keeps_displacement(&self, definition: &ElementDef) -> bool {
-        let displacement = definition.displacement.as_ref();
-        displacement.is_none_or(|term| self.of(term).stays())
+    /// Whether the displacement that can be read keeps its sign, and a contact is mirrored.
+    fn keeps_readings(&self, definition: &ElementDef) -> bool {
+        let contact = definition.contact.iter().flatten();
+        let mut read = definition.displacement.iter().chain(contact);
+        read.all(|term| self.of(term).stays())
     }
 
     /// How many of its angles and motions keep their sign.
@@ -190,8 +191,8 @@ pub(super) fn pseudovectors(definition: &ElementDef) -> Option<Vec<bool>> {
     let possible = choices.filter(|choice| choice.holds(definition));
     let best = possible.max_by_key(|choice| {
         let arrows = choice.0.iter().filter(|is_odd| !**is_odd).count();
-        let displacement = choice.keeps_displacement(definition);
-        (displacement, choice.kept(definition), arrows)
+        let readings = choice.keeps_readings(definition);
+        (readings, choice.kept(definition), arrows)
     });
     best.map(|choice| choice.0)
 }

@@ -53,6 +53,8 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&ElementDef>, facade: &TokenStre
             let angles = marker(angles, quote!(HasTwoAngles));
             let displacement = has(|s| matches!(s, Statement::Displacement(..)));
             let displacement = marker(displacement, quote!(HasDisplacement));
+            let contact = has(|s| matches!(s, Statement::Contact(..)));
+            let contact = marker(contact, quote!(HasContact));
             let driven = has(|s| matches!(s, Statement::Drive(..))).then(|| {
                 let row = joint.and_then(|joint| joint.drive).unwrap_or_default();
                 quote! {
@@ -71,6 +73,7 @@ pub fn emit(syntax: &JointSyntax, joint: Option<&ElementDef>, facade: &TokenStre
                 #angle
                 #angles
                 #displacement
+                #contact
                 #driven
             }
         }

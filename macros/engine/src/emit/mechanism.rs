@@ -225,6 +225,7 @@ impl Writer<'_> {
         tokens.extend(self.shapes());
         tokens.extend(self.two_angles());
         tokens.extend(self.displacements());
+        tokens.extend(self.contacts());
         tokens.extend(self.sides());
         tokens.extend(self.rewrap());
         tokens.extend(self.force_readouts());

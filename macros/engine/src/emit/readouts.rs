@@ -153,6 +153,45 @@ impl Writer<'_> {
         }
     }
 
+    /// Only where joints have contacts.
+    pub(super) fn contacts(&mut self) -> TokenStream {
+        let kernels = self.kernels;
+        let mut arms = TokenStream::new();
+        for (place, kernel) in &kernels.readouts.contacts {
+            let StraightLine {
+                statements,
+                outputs,
+            } = self.line(kernel);
+            let vectors = outputs.chunks(3).map(|vector| quote!([#(#vector),*]));
+            arms.extend(quote!(#place => { #statements [#(#vectors),*] }));
+        }
+        if arms.is_empty() {
+            return arms;
+        }
+        let facade = self.facade;
+        let (constants, time, state, joint) = (
+            local("constants"),
+            local("time"),
+            local("state"),
+            local("joint"),
+        );
+        let unpack = Self::unpack();
+        quote! {
+            fn joint_contact<__S: #facade::Scalar>(
+                #constants: &Self::Constants<__S>,
+                #time: __S,
+                #state: &Self::State<__S>,
+                #joint: usize,
+            ) -> [[__S; 3]; 3] {
+                #unpack
+                match #joint {
+                    #arms
+                    _ => [[__S::zero(); 3]; 3],
+                }
+            }
+        }
+    }
+
     /// Only where joints tell a side; the trait says that all is well by default.
     pub(super) fn sides(&mut self) -> TokenStream {
         if self.kernels.readouts.sides.is_empty() {

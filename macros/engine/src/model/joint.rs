@@ -494,6 +494,9 @@ pub struct ElementDef {
     pub angles: Option<[usize; 2]>,
     /// The displacement that can be read.
     pub displacement: Option<Term>,
+    /// Where the second of its bodies touches the first: the point, the normal, and the velocity of
+    /// the material of the second there against that of the first.
+    pub contact: Option<[Term; 3]>,
     /// What is positive on the side that is meant, of the configurations that satisfy its
     /// equations.
     pub requirements: Vec<Term>,
@@ -545,7 +548,8 @@ impl ElementDef {
         let rows = self.rows.iter().map(Row::term);
         let actions = self.actions.iter().flat_map(Action::terms);
         let readings = self.displacement.iter().chain(&self.requirements);
-        rows.chain(actions).chain(readings)
+        let contact = self.contact.iter().flatten();
+        rows.chain(actions).chain(readings).chain(contact)
     }
 
     /// The first body on which a vector parameter is used; the first of all if it is used nowhere.

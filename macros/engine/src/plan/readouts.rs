@@ -22,6 +22,8 @@ pub struct Readouts {
     pub two_angles: Vec<(usize, Kernel)>,
     /// Value and rate of the displacement of each joint that has one.
     pub displacements: Vec<(usize, Kernel)>,
+    /// Point, normal and slip of each joint that has a contact, in global axes.
+    pub contacts: Vec<(usize, Kernel)>,
     /// What is positive on the side that is meant, of each joint that says so.
     pub sides: Vec<(usize, Kernel)>,
     /// The reaction point of each joint on each of its bodies.
@@ -60,6 +62,7 @@ impl Readouts {
             angles: angles(scene, model),
             two_angles: two_angles(scene, model),
             displacements: displacements(scene, model),
+            contacts: contacts(scene, model),
             sides: sides(scene, model),
             points: points(scene, model),
             markers: markers(scene, model),
@@ -299,6 +302,24 @@ fn displacements(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
                 displacement.value(space, motion),
                 displacement.rate(space, motion),
             ]
+        });
+        (joint, kernel)
+    })
+    .collect()
+}
+
+fn contacts(scene: &Scene, model: &Model) -> Vec<(usize, Kernel)> {
+    let with = (0..model.joints.len())
+        .filter(|&joint| model.definition(&model.joints[joint]).contact.is_some());
+    with.map(|joint| {
+        let kernel = with_scene(scene, |scene| {
+            let contact = scene.contact(model, joint);
+            let (space, motion) = (&mut scene.space, &scene.motion);
+            let vectors = contact.iter().flat_map(|vector| {
+                let vector = vector.value(space, motion);
+                space.components(vector, Frame::Global)
+            });
+            vectors.collect()
         });
         (joint, kernel)
     })

@@ -345,19 +345,38 @@ impl Scene {
     /// What is positive on the side of a joint that is meant. Bound where it is asked for: no other
     /// kernel has a part of it.
     pub(crate) fn sides(&mut self, model: &Model, joint: usize) -> Vec<ScalarExpr> {
-        let element = &model.joints[joint];
+        let definition = model.definition(&model.joints[joint]);
+        let terms = definition.requirements.iter();
+        self.bound(model, joint, |binder, arena| {
+            terms.map(|term| binder.scalar(arena, term)).collect()
+        })
+    }
+
+    /// Point, normal and slip of the contact of a joint, bound likewise.
+    pub(crate) fn contact(&mut self, model: &Model, joint: usize) -> Vec<VectorExpr> {
+        let definition = model.definition(&model.joints[joint]);
+        let terms = definition.contact.iter().flatten();
+        self.bound(model, joint, |binder, arena| {
+            terms.map(|term| binder.vector(arena, term)).collect()
+        })
+    }
+
+    /// What is bound of the expressions of a joint that speak of no angle over turns, and of no law.
+    fn bound<T>(
+        &mut self,
+        model: &Model,
+        joint: usize,
+        bind: impl FnOnce(&Binder<'_>, &mut Arena) -> T,
+    ) -> T {
         let binder = Binder {
             model,
-            element,
+            element: &model.joints[joint],
             copies: &self.copies[joint],
-            // No angle over turns stands in it, and no law.
             first_counter: 0,
             first_state: 0,
             paired: &|_, _, _| None,
         };
-        let terms = model.definition(element).requirements.iter();
-        let arena = &mut self.space.arena;
-        terms.map(|term| binder.scalar(arena, term)).collect()
+        bind(&binder, &mut self.space.arena)
     }
 
     /// The scene of a model for a solution of its equations: vectors are computed in whatever axes

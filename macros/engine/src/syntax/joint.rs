@@ -81,6 +81,8 @@ pub enum Statement {
     },
     /// `displacement expr`.
     Displacement(Ident, Box<syn::Expr>),
+    /// `contact expr, expr`: the word, the point, the normal.
+    Contact(Ident, Box<syn::Expr>, Box<syn::Expr>),
     /// `motion ..`.
     Motion {
         /// The word `motion`.
@@ -346,6 +348,7 @@ fn keyword(piece: &Piece) -> Option<(Ident, Piece)> {
     };
     let is_statement = match keyword.to_string().as_str() {
         "potential" | "displacement" => true,
+        "contact" => split(rest.tokens.clone(), ',').len() > 1,
         "require" => is_inequality(&rest),
         "drive" => around(&rest, "to").is_some(),
         "force" => around(&rest, "at").is_some(),
@@ -442,6 +445,7 @@ fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
         "displacement" => {
             expression(&rest, faults).map(|expr| Statement::Displacement(keyword, expr))
         }
+        "contact" => contact(keyword, rest, faults),
         "require" => requirement(&rest, faults).map(|expr| Statement::Require(keyword, expr)),
         "potential" => expression(&rest, faults).map(|expr| Statement::Potential(keyword, expr)),
         "drive" => pair("to", "drive length(j.tail - i.head) to motion()")
@@ -452,6 +456,20 @@ fn statement(piece: &Piece, faults: &mut Faults) -> Option<Statement> {
             .map(|(vector, body)| Statement::Moment(keyword, vector, body)),
         _ => expression(piece, faults).map(Statement::Zero),
     }
+}
+
+/// The point of a contact and its normal.
+fn contact(keyword: Ident, rest: Piece, faults: &mut Faults) -> Option<Statement> {
+    let parts = split(rest.tokens, ',');
+    let [point, normal] = parts.as_slice() else {
+        faults.at(
+            &keyword,
+            "expected a point and a normal, as in `contact j.center - radius * i.normal, i.normal`",
+        );
+        return None;
+    };
+    let (point, normal) = (expression(point, faults), expression(normal, faults));
+    Some(Statement::Contact(keyword, point?, normal?))
 }
 
 /// What is positive: `expr > 0`.
