@@ -156,6 +156,9 @@ fn put(toy: &Woodpecker, motion: &Motion) -> StateOf<Woodpecker> {
 const GLOCKER: Motion = [0.0, -PLAY / HALF_HEIGHT, -0.2788, -0.3411, 0.0, -7.4583];
 const SLIPS: minimal::Closed = Some((1, minimal::Way::Slips(-1.0)));
 
+/// A peck of the limit cycle, to eight digits: where 130 cycles from that state lead to.
+const PECK: Motion = [0.0, 0.089403853, 0.12, -0.093775192, 22.8785033, -8.4555887];
+
 /// What the library finds from a state in which the sleeve slips or is free: the instants of all
 /// changes, and the motion at the end.
 fn found(start: &Motion, end: f64) -> (Vec<f64>, Motion) {
@@ -225,7 +228,7 @@ fn a_woodpecker_goes_down_its_pole() {
 fn it_does_so_in_glockers_limit_cycle() {
     // From one peck to the next.
     let mut pecks = [(0.0, [0.0; 6]); 2];
-    minimal::run((GLOCKER, SLIPS), 20.0, |time, motion| {
+    minimal::run((PECK, None), 6.0, |time, motion| {
         if motion[2] > 0.999 * BEAK_GAP / BEAK_HEIGHT {
             pecks = [pecks[1], (time, *motion)];
         }
