@@ -7,7 +7,6 @@ mod acceleration;
 pub(crate) mod access;
 mod angle_rates;
 pub(crate) mod angles;
-pub(crate) mod contact;
 pub(crate) mod interacting;
 pub(crate) mod load;
 pub(crate) mod momentum;
@@ -27,7 +26,6 @@ pub(crate) mod written;
 
 pub use angle_rates::{BryantAngleRates, EulerAngleRates, RollPitchYawRates};
 pub use angles::{BryantAngles, EulerAngles, RollPitchYaw};
-pub use contact::ContactPoint;
 pub use interacting::{Heeding, Interacting, Unlimited};
 pub use load::{AppliedForces, ForceLaw, NoForces};
 #[cfg(feature = "serde")]
@@ -36,3 +34,5 @@ pub use scaled::ScaledCapacity;
 pub use unwrapped::UnwrappedAngle;
 pub use view::OwnedView;
 pub use viewed::Viewed;
+
+pub use crate::mechanism::readout::ContactPoint;

@@ -11,7 +11,6 @@ use crate::math::scalar::Scalar;
 use crate::math::vec3::{minus, read, square, times};
 use crate::math::without_bounds::copied;
 use crate::measure::access::{MechanismExt, Pose};
-use crate::measure::contact::ContactPoint;
 use crate::measure::reaction::{Wrench, wrench};
 use crate::mechanism::handle::{
     BodyHandle, Driven, ForceHandle, HasAngle, HasContact, HasDisplacement, JointHandle,
@@ -19,7 +18,7 @@ use crate::mechanism::handle::{
 };
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::orientations::with_unit_orientations;
-use crate::mechanism::readout::{AngleParts, DisplacementParts, ForceParts};
+use crate::mechanism::readout::{AngleParts, ContactPoint, DisplacementParts, ForceParts};
 use crate::mechanism::report::{BodyInfo, MarkerKind};
 use crate::mechanism::turns;
 use crate::state::vector::Array;

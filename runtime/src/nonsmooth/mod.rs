@@ -23,7 +23,7 @@
 //! Contacts: `contact.rs` is what a user writes, `shape.rs` how shapes lie and move against what
 //! they touch (`place.rs`, `sphere.rs`, `cam.rs` over `profile.rs`). `reader.rs` looks once for all
 //! that asks. Their friction: `cones.rs`, over `cone_problem.rs` and `tied.rs`, which know no
-//! mechanism, and `pace.rs`, by which steps follow slip that ends.
+//! mechanism, and `pace.rs`, by which steps follow slip that turns near its zero (`paced.rs`).
 //!
 //! The reasons are in `docs/decisions/027-interactions.md`, `032-friction-by-load.md` and
 //! `051-contacts-with-friction.md`.
@@ -47,7 +47,8 @@ mod law;
 pub(crate) mod loads;
 pub(crate) mod mode;
 mod motion;
-pub(crate) mod pace;
+mod pace;
+pub(crate) mod paced;
 pub(crate) mod place;
 mod profile;
 pub(crate) mod quantity;

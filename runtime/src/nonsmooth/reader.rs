@@ -1,8 +1,8 @@
 //! Quantities of a list, read in its order.
 
 use crate::math::scalar::Scalar;
-use crate::measure::contact::ContactPoint;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::readout::ContactPoint;
 use crate::nonsmooth::place::At;
 use crate::nonsmooth::quantity::Quantity;
 use crate::nonsmooth::scene::Scene;

@@ -5,7 +5,7 @@ use crate::integrate::TimeSpan;
 use crate::math::scalar::Real;
 use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::pace::end_of_step;
+use crate::nonsmooth::paced::end_of_step;
 use crate::run::driver::Driver;
 use crate::run::leg::{Begun, Leg};
 use crate::run::past::Past;

@@ -9,7 +9,6 @@ use nalgebra::Vector3;
 use crate::dynamics::evaluate::Evaluate;
 use crate::error::{Fault, ReadingFault};
 use crate::math::scalar::Real;
-use crate::measure::contact::ContactPoint;
 use crate::measure::reaction::Wrench;
 use crate::measure::view::View;
 use crate::mechanism::coordinates::Evaluation;
@@ -18,6 +17,7 @@ use crate::mechanism::handle::{
 };
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::point::Located;
+use crate::mechanism::readout::ContactPoint;
 use crate::nonsmooth::handle::{InteractionHandle, effort_of, named};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;

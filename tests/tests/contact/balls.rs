@@ -72,6 +72,12 @@ fn rolls_after<C: Coordinates<Bowling>>(velocity: [f64; 3], spin: [f64; 3], fric
                 let part = (sample.time() / until).min(1.0);
                 let wanted = Vector3::from(velocity) - 2.0 / 7.0 * part * slip;
                 let size = 1.0 + slip.norm();
+                let touches = sample.contact_of(along)?;
+                let below = sample.position(h.ball) - RADIUS * Vector3::z();
+                assert!((touches.position - below).norm() < 1e-15);
+                assert_eq!(touches.normal, Vector3::z());
+                let left = (1.0 - part) * slip;
+                assert!((touches.slip - left).norm() < 1e-8 * size);
                 let error = (sample.velocity(h.ball) - wanted).norm();
                 assert!(error < 1e-9 * size, "{error:e} at {}", sample.time());
                 Ok(())

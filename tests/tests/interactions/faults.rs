@@ -103,6 +103,17 @@ fn handles_of_what_is_not_there_are_refused() {
     });
     assert_eq!(engaged(brake, second), Err(another));
     let no_limits = Fault::Reading(ReadingFault::NoSuchLimits { joint: "rail" });
+    // A brake touches nowhere.
+    let nowhere = ball
+        .simulation(StandardLagrange, DormandPrince::default())
+        .interactions([brake])
+        .run(0.0..=0.1, every(0.1), |sample| {
+            sample.contact_of(first).map(|_| ())
+        });
+    let no_contact = ReadingFault::NoContact {
+        interaction: "rail",
+    };
+    assert!(matches!(nowhere, Err(RunError::Observer(fault)) if fault == no_contact));
     assert_eq!(engaged(brake, rail.limits()), Err(no_limits));
     // A stop is neither engaged nor released.
     let misplaced = Fault::Start(StartFault::MisplacedSetting {

@@ -11,7 +11,7 @@ use crate::mechanism::turns;
 use crate::nonsmooth::checked::check_all;
 use crate::nonsmooth::handle::{InteractionHandle, effort_of, engage, named};
 use crate::nonsmooth::mode::InteractionMode;
-use crate::nonsmooth::pace::end_of_step;
+use crate::nonsmooth::paced::end_of_step;
 use crate::nonsmooth::status::Impact;
 use crate::run::stepper::{Stepper, Steps};
 use crate::stepping::followed::bodies_by_halves;
