@@ -12,8 +12,10 @@ use crate::math::scalar::Real;
 use crate::nonsmooth::cone_problem::length;
 use crate::nonsmooth::tied::at;
 
-/// What drives slip aside by less than this part of all that acts on it has not turned it.
-const STRAIGHT: f64 = 1e-9;
+/// What drives slip aside by less than this part of all that acts on it has not turned it: where
+/// it shrinks, and where it grows. Shares of what motion does not determine, as of a block on four
+/// corners, are known to less than the first. A step over slip that grows enlarges what is aside.
+const STRAIGHT: [f64; 2] = [1e-7, 1e-9];
 
 /// Slip that changes by less than this part of all that acts on it stays nearly as it is: steps that
 /// follow it would be too many.
@@ -74,7 +76,7 @@ impl<S: Real> Haste<S> {
                 false => all,
             },
             grows,
-            turns: aside > S::constant(STRAIGHT) * all,
+            turns: aside > S::constant(STRAIGHT[usize::from(grows)]) * all,
         }
     }
 
