@@ -187,11 +187,11 @@ pub fn is_zero<const N: usize>(components: [f64; N]) -> bool {
 /// a driver, with `y` a function of time, whose effort can be read
 /// ([`Sample::driving_effort`](crate::Sample::driving_effort)), `angle about axis;` and
 /// `displacement x;`, which can be read ([`View::angle`](crate::View::angle),
-/// [`View::displacement`](crate::View::displacement)), `contact point, normal;`, the point where the
-/// second body touches the first, and the direction from there into the second
+/// [`View::displacement`](crate::View::displacement)), `contact point, normal;`, the point where
+/// the second body touches the first, and the direction from there into the second
 /// ([`View::contact`](crate::View::contact)), and `motion ..;`, which says how the second of two
-/// bodies moves against the first: motions separated by commas, each carried by those before it, or
-/// `none`.
+/// bodies moves against the first: motions separated by commas, each carried by those before it,
+/// or `none`.
 ///
 /// | motion | |
 /// |---|---|

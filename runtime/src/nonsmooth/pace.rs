@@ -1,11 +1,11 @@
 //! How far a step may go where slip turns while it ends.
 //!
-//! Near its zero the slip `s` of a contact has `ds/dt = d - f s/|s|`: what drives it, less friction.
-//! Its direction goes over into that of `d` at the rate `|d|/|s|`, which no step across the zero
-//! resolves. So steps shrink with the slip, until it is little. If what is little would stick, it
-//! ends: its direction stays, up to where the slip along it is zero, and an impulse takes what is
-//! left beside. That and the friction that then holds do together what friction would have done.
-//! Only the way of the slip until then, of the size `|s|^2 / (f - |d|)`, is another.
+//! Near its zero the slip `s` of a contact has `ds/dt = d - f s/|s|`: what drives it, less
+//! friction. Its direction goes over into that of `d` at the rate `|d|/|s|`, which no step across
+//! the zero resolves. So steps shrink with the slip, until it is little. If what is little would
+//! stick, it ends: its direction stays, up to where the slip along it is zero, and an impulse takes
+//! what is left beside. That and the friction that then holds do together what friction would have
+//! done. Only the way of the slip until then, of the size `|s|^2 / (f - |d|)`, is another.
 
 use crate::integrate::{Memory, Tolerance};
 use crate::math::scalar::Real;
@@ -15,14 +15,14 @@ use crate::nonsmooth::tied::at;
 /// What drives slip aside by less than this part of all that acts on it has not turned it: where
 /// it shrinks, and where it grows. Shares of what motion does not determine, as of a block on four
 /// corners, are known to less than the first. A step over slip that grows enlarges what is aside.
-const STRAIGHT: [f64; 2] = [1e-7, 1e-9];
+const STRAIGHT_ON: [f64; 2] = [1e-7, 1e-9];
 
-/// Slip that changes by less than this part of all that acts on it stays nearly as it is: steps that
-/// follow it would be too many.
-const LASTS: f64 = 1e-5;
+/// Slip that changes by less than this part of all that acts on it stays nearly as it is. Steps
+/// that follow it would be too many.
+const STEADY: f64 = 1e-5;
 
 /// Slip of so many tolerances is resolved by a method that controls its error.
-const RESOLVED: f64 = 1e3;
+const OF_TOLERANCE: f64 = 1e3;
 
 /// What makes slip faster, slower, and turns it.
 #[derive(Clone, Copy, Debug)]
@@ -71,12 +71,12 @@ impl<S: Real> Haste<S> {
         let (two, grows) = (S::constant(2.0), along >= S::zero());
         Self {
             turning: match grows {
-                _ if along.abs() <= S::constant(LASTS) * all => S::zero(),
+                _ if along.abs() <= S::constant(STEADY) * all => S::zero(),
                 true => (two * aside).max(all.quotient(two * two)),
                 false => all,
             },
             grows,
-            turns: aside > S::constant(STRAIGHT[usize::from(grows)]) * all,
+            turns: aside > S::constant(STRAIGHT_ON[usize::from(grows)]) * all,
         }
     }
 
@@ -104,7 +104,7 @@ impl<S: Real> Pace<S> {
     pub(crate) fn end_of_step(&self, tolerance: Option<Tolerance<S>>) -> Option<S> {
         let is_resolved = tolerance.is_some_and(|tolerance| {
             let error = tolerance.relative.fused(self.largest, tolerance.absolute);
-            self.grown > S::constant(RESOLVED) * error
+            self.grown > S::constant(OF_TOLERANCE) * error
         });
         (!is_resolved).then_some(self.until)
     }

@@ -301,7 +301,7 @@ pub(crate) struct Block {
 #[test]
 fn a_block_in_space_slides_to_rest_on_four_corners() {
     let (block, h) = (Block::default(), Block::HANDLES);
-    for (number, slope) in [0.0_f64, 0.1, 0.0, 0.1, 0.2].into_iter().enumerate() {
+    for (number, slope) in [0.1_f64, 0.0].into_iter().enumerate() {
         let friction = 0.31 + 0.01 * number as f64;
         let speed = 1.1 + 0.037 * number as f64;
         let (sine, cosine) = slope.sin_cos();

@@ -10,28 +10,12 @@ use super::expression::{Context, Shaped, extent, too_large};
 use super::motion::{must_count, must_turn};
 use super::moves;
 use super::rates::{has_rate, is_constant, is_linear};
-use crate::diag::{Faults, did_you_mean, list};
-use crate::model::{
-    Action, Comparison, ElementDef, ElementKind, Extent, Motion, Parameter, ParameterKind, Row,
-    Term, Turn,
-};
+use super::signature::{RESERVED, signature};
+use crate::diag::Faults;
+use crate::model::{Action, Comparison, ElementDef, ElementKind, Extent, Motion, Row, Term, Turn};
 use crate::syntax::joint::{JointSyntax, ParameterSyntax, Statement};
 use crate::syntax::motion::MotionSyntax;
 use crate::wire;
-
-/// Names that a definition may not use for itself.
-const RESERVED: [&str; 10] = [
-    "PI",
-    "TAU",
-    "between",
-    "displacement",
-    "drive",
-    "ground",
-    "let",
-    "origin",
-    "potential",
-    "time",
-];
 
 /// A sound definition where it stands.
 pub struct Defined<'a> {
@@ -86,10 +70,8 @@ pub fn define<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> Option<Define
         motions: None,
         drive: None,
     };
-    let mut defaults = Vec::new();
-    for parameter in &syntax.parameters {
-        defaults.push(reader.default(parameter, &mut fresh));
-    }
+    let given = syntax.parameters.iter();
+    let defaults: Vec<_> = given.map(|it| reader.default(it, &mut fresh)).collect();
     for statement in &syntax.statements {
         reader.statement(statement, &mut fresh);
     }
@@ -292,9 +274,7 @@ impl Reader<'_> {
             }
             Statement::Angle { keyword, axes } => self.read_angle(keyword, axes, faults),
             Statement::Displacement(keyword, expr) => self.read_displacement(keyword, expr, faults),
-            Statement::Contact(keyword, point, normal) => {
-                self.read_contact(keyword, [point, normal], faults);
-            }
+            Statement::Contact(word, at, normal) => self.read_contact(word, [at, normal], faults),
             Statement::Require(keyword, written) => self.require(keyword, written, faults),
             Statement::Motion {
                 keyword, motions, ..
@@ -570,67 +550,4 @@ impl Shaped {
             }
         })
     }
-}
-
-/// The parameters, and the names of those whose kind is not known.
-fn signature<'a>(syntax: &'a JointSyntax, faults: &mut Faults) -> (Vec<Parameter>, Vec<&'a Ident>) {
-    if syntax.bodies.is_empty() {
-        let word = syntax.kind.word();
-        faults.at(
-            &syntax.name,
-            format!("a {word} connects at least one body, as in `(i, j)`"),
-        );
-    }
-    let mut ambiguous = Vec::new();
-    let mut seen: Vec<&Ident> = Vec::new();
-    for name in syntax
-        .bodies
-        .iter()
-        .chain(syntax.parameters.iter().map(|parameter| &parameter.name))
-    {
-        if RESERVED.contains(&name.to_string().as_str()) {
-            faults.at(
-                name,
-                format!("`{name}` is a word of the language; take another name"),
-            );
-        }
-        if seen.contains(&name) {
-            faults.at(name, format!("`{name}` is declared twice"));
-        }
-        seen.push(name);
-    }
-    let parameters = syntax
-        .parameters
-        .iter()
-        .map(|parameter| {
-            let ParameterSyntax { name, kind, .. } = parameter;
-            let found = kind.to_string();
-            let known = ParameterKind::ALL.iter().find(|(word, _)| *word == found);
-            if known.is_none() {
-                ambiguous.push(name);
-                let words = ParameterKind::ALL.map(|(word, _)| word);
-                let near = did_you_mean(&found, words);
-                faults.at(
-                    kind,
-                    format!("no kind `{found}`; there are {}{near}", list(words)),
-                );
-            }
-            let known = known.map_or(ParameterKind::Number, |(_, kind)| *kind);
-            if known != ParameterKind::Law
-                && let Some(argument) = parameter.arguments.first()
-            {
-                faults.at(
-                    argument,
-                    format!("`{name}` has no arguments: only a `Law` has"),
-                );
-            }
-            Parameter {
-                name: name.clone(),
-                kind: known,
-                arguments: parameter.arguments.clone(),
-                default: None,
-            }
-        })
-        .collect();
-    (parameters, ambiguous)
 }

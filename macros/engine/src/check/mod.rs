@@ -63,6 +63,7 @@ mod points;
 mod rates;
 mod readings;
 mod redundant;
+mod signature;
 pub mod slopes;
 mod states;
 mod switches;

@@ -361,7 +361,7 @@ impl Scene {
         })
     }
 
-    /// What is bound of the expressions of a joint that speak of no angle over turns, and of no law.
+    /// What is bound of expressions of a joint that speak of no angle over turns, and of no law.
     fn bound<T>(
         &mut self,
         model: &Model,
