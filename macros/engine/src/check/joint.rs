@@ -386,9 +386,19 @@ impl Reader<'_> {
             && let (Some(point), Some(normal)) = (point, normal)
         {
             let message = "a contact depends on positions alone; its slip is read with it";
-            let of_rates = has_rate(&point, written[0], message, faults)
-                || has_rate(&normal, written[1], message, faults);
-            if !of_rates {
+            let mut is_sound = true;
+            for (term, written) in [(&point, written[0]), (&normal, written[1])] {
+                // Its kernel knows neither the counters of turns nor the states in laws.
+                if term.has(|term| matches!(term, Term::Law { .. } | Term::Angle(_))) {
+                    is_sound = false;
+                    faults.at(
+                        written,
+                        "a contact depends on points and directions: no law, no angle over many turns",
+                    );
+                }
+                is_sound &= !has_rate(term, written, message, faults);
+            }
+            if is_sound {
                 let slip = slip(&point);
                 self.contact = Some([point, normal, slip]);
             }

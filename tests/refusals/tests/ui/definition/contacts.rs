@@ -12,12 +12,14 @@ holonom::joint! {
 
 holonom::joint! {
     /// What is no vector, and what is no matter of places.
-    pub joint Shapes(i, j; center: Point, normal: Axis, radius: Length) {
+    pub joint Shapes(i, j; center: Point, normal: Axis, radius: Length, ramp: Law) {
         dot(i.normal, j.center);
         contact radius, i.normal;
         contact j.center, i.normal.normals();
         contact j.center + rate(j.center), i.normal;
         contact j.center, angular_velocity(j);
+        contact j.center + ramp() * i.normal, i.normal;
+        contact j.center, angle(i, j, normal) * i.normal;
     }
 }
 
