@@ -256,7 +256,7 @@ fn statement(input: ParseStream<'_>) -> syn::Result<Statement> {
         }
     }
     let word = input.parse::<Ident>()?.to_string();
-    if word == "motion" || word == "angle" {
+    if ["motion", "angle", "contact"].contains(&word.as_str()) {
         while !input.peek(Token![;]) {
             input.parse::<TokenTree>()?;
         }
