@@ -2,6 +2,9 @@
 
 use crate::math::scalar::Real;
 
+/// The largest step by default, as a part of the interval.
+pub(super) const OF_DURATION: f64 = 0.1;
+
 /// What a step control is held to besides its tolerance. Nothing of it is set by default but the
 /// budget.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +44,14 @@ impl<S> StepLimits<S> {
 impl<S: Real> StepLimits<S> {
     /// The parts of an interval that a companion looks into at least.
     const LOOKS: f64 = 256.0;
+
+    /// Those over a part of an interval of so many seconds.
+    pub(super) fn for_duration(self, duration: S) -> Self {
+        Self {
+            largest: self.largest.or(Some(S::constant(OF_DURATION) * duration)),
+            ..self
+        }
+    }
 
     /// Those of a companion over an interval of so many seconds.
     pub(super) fn of_companion(self, duration: S) -> Self {
@@ -164,6 +175,13 @@ macro_rules! controlled {
             fn for_length(&self, length: S) -> Self {
                 Self {
                     tolerance: self.tolerance.for_length(length),
+                    ..*self
+                }
+            }
+
+            fn for_duration(&self, duration: S) -> Self {
+                Self {
+                    limits: self.limits.for_duration(duration),
                     ..*self
                 }
             }

@@ -1,5 +1,6 @@
 //! The step control of MATLAB's `ode45` and `ode23`, as pure functions.
 
+use super::controlled::OF_DURATION;
 use super::{StepLimits, TimeSpan};
 use crate::constraints::scales::Scales;
 use crate::error::setting::positive;
@@ -147,7 +148,7 @@ impl<S: Real> Controller<S> {
             least,
             // Steps that the time cannot tell lead nowhere.
             largest: largest
-                .unwrap_or(S::constant(0.1) * duration)
+                .unwrap_or(S::constant(OF_DURATION) * duration)
                 .max(least)
                 .max(told(span.start.abs().max(span.end.abs()))),
             end: span.end,

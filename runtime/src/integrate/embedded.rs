@@ -128,6 +128,13 @@ impl<S: Real, K: EmbeddedPair<S>> Method<S> for Adaptive<S, K> {
         }
     }
 
+    fn for_duration(&self, duration: S) -> Self {
+        Self {
+            limits: self.limits.for_duration(duration),
+            ..*self
+        }
+    }
+
     fn companion(&self, duration: S) -> Option<Self> {
         Some(Self {
             tolerance: self.tolerance.of_companion(),

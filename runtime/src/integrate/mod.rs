@@ -292,6 +292,12 @@ pub trait Method<S: Real>: Copy + Debug {
         *self
     }
 
+    /// The same method over a part of an interval of so many seconds: what it takes of an interval
+    /// by default, as the tenth that no step is longer than, it takes of the whole.
+    fn for_duration(&self, _duration: S) -> Self {
+        *self
+    }
+
     /// The same method for a second run over an interval of so many seconds, by which the error of
     /// the first is estimated ([`Simulation::verified`](crate::Simulation::verified)): with half
     /// the step, or with another tolerance and steps that pass over nothing longer than 1/256 of

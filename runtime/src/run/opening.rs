@@ -55,7 +55,8 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         past: Option<&Past<'_, S, M>>,
     ) -> Result<bool, Fault> {
         let from = leg.from;
-        let until = self.next_end(from, self.course.hybrid.end)?;
+        let end = self.next_end(from, self.course.hybrid.end)?;
+        let until = self.slowed_end(from, end);
         let under_way = past.and_then(|past| Some((past, past.segment?)));
         if under_way.is_none() {
             self.course.passing.begin();
@@ -69,10 +70,12 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
             end: leg.until,
             first_output: first_output.min(leg.until - from),
         };
+        // Steps that slip makes short grow as others do.
+        let whole = (if until < end { end } else { leg.until }) - from;
         let begun = match under_way {
-            Some((past, segment)) => self.go_on(span, &segment, past)?,
+            Some((past, segment)) => self.go_on((span, whole), &segment, past)?,
             None if self.goes_across(at, leg.until)? => return Ok(false),
-            None => self.start(span, at)?,
+            None => self.start((span, whole), at)?,
         };
         leg.under_way = Some(begun);
         leg.taken.end = self.march.time();
@@ -96,15 +99,18 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     }
 
     /// Where (s) an integration ends that begins at a time, at the latest: at a break, a
-    /// controller, a given time of a handler or a switch of the time alone, and as far as slip that
-    /// turns lets a step go.
+    /// controller, a given time of a handler or a switch of the time alone.
     fn next_end(&mut self, from: S, end: S) -> Result<S, Fault> {
         let until = next_break(M::REPORT.time.breaks, self.breaks, from, end);
         let until = self.next_instant(until);
-        let until = self.next_switch(from, until)?;
+        self.next_switch(from, until)
+    }
+
+    /// The same where slip that turns lets a step go less far.
+    fn slowed_end(&self, from: S, end: S) -> S {
         let interactions = self.march.equations().interactions();
         let tolerance = self.course.settings.tolerance;
-        Ok(end_of_step(interactions, (from, until), tolerance))
+        end_of_step(interactions, (from, end), tolerance)
     }
 
     /// The next instant (s) of a controller or of a handler at given times, up to a time.
@@ -123,8 +129,12 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     }
 
     /// Begins an integration.
-    fn start(&mut self, span: TimeSpan<S>, at: &StateAt<S, M>) -> Result<Begun<S>, Fault> {
-        self.march.start(span, &at.bodies)?;
+    fn start(
+        &mut self,
+        (span, whole): (TimeSpan<S>, S),
+        at: &StateAt<S, M>,
+    ) -> Result<Begun<S>, Fault> {
+        self.march.start(span, whole, &at.bodies)?;
         let goes_on = self.course.passing.goes_on(span.start);
         if let (Some(monitor), false) = (&mut self.course.monitor, goes_on) {
             monitor.restart();

@@ -49,11 +49,11 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
     /// Makes an integration that is begun anew the one that was under way.
     pub(crate) fn go_on(
         &mut self,
-        span: TimeSpan<S>,
+        (span, whole): (TimeSpan<S>, S),
         segment: &PastSegment<'_, S>,
         past: &Past<'_, S, M>,
     ) -> Result<Begun<S>, Fault> {
-        if !self.march.start_again(span, segment.state)? {
+        if !self.march.start_again(span, whole, segment.state)? {
             return Err(refused(CheckpointFault::Memory));
         }
         let mut is_kept = false;

@@ -53,9 +53,10 @@ where
         }
     }
 
-    fn begin(&mut self, span: TimeSpan<S>, state: State<P>) -> Result<(), Fault> {
+    fn begin(&mut self, span: TimeSpan<S>, whole: S, state: State<P>) -> Result<(), Fault> {
         self.under_way = None;
-        let integration = self.integrator.start(&mut self.dynamics, span, state)?;
+        let integrator = self.integrator.for_duration(whole);
+        let integration = integrator.start(&mut self.dynamics, span, state)?;
         self.under_way = Some((state, integration));
         Ok(())
     }
@@ -109,14 +110,14 @@ where
         &self.integrator
     }
 
-    fn start(&mut self, span: TimeSpan<S>, bodies: &M::State<S>) -> Result<(), Fault> {
+    fn start(&mut self, span: TimeSpan<S>, whole: S, bodies: &M::State<S>) -> Result<(), Fault> {
         let state = self.dynamics.nearest(bodies);
-        self.begin(span, state)
+        self.begin(span, whole, state)
     }
 
-    fn start_again(&mut self, span: TimeSpan<S>, elements: &[S]) -> Result<bool, Fault> {
+    fn start_again(&mut self, span: TimeSpan<S>, whole: S, elements: &[S]) -> Result<bool, Fault> {
         match vector(elements) {
-            Some(state) => self.begin(span, state).map(|()| true),
+            Some(state) => self.begin(span, whole, state).map(|()| true),
             None => Ok(false),
         }
     }

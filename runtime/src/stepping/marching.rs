@@ -50,18 +50,19 @@ pub(crate) trait Marching<S: Real, M: Mechanism> {
     #[cfg(feature = "std")]
     fn method(&self) -> &dyn Debug;
 
-    /// Begins an integration with the bodies at its start.
+    /// Begins an integration, which may be a part of one of so many seconds, with the bodies at its
+    /// start.
     ///
     /// # Errors
     /// Those of the method.
-    fn start(&mut self, span: TimeSpan<S>, bodies: &M::State<S>) -> Result<(), Fault>;
+    fn start(&mut self, span: TimeSpan<S>, whole: S, bodies: &M::State<S>) -> Result<(), Fault>;
 
     /// Begins an integration again from the elements of the state in which it had begun. False of
     /// elements that are no state.
     ///
     /// # Errors
     /// Those of the method.
-    fn start_again(&mut self, span: TimeSpan<S>, elements: &[S]) -> Result<bool, Fault>;
+    fn start_again(&mut self, span: TimeSpan<S>, whole: S, elements: &[S]) -> Result<bool, Fault>;
 
     /// Hands over what the next steps depend on, or replaces it; whether the method does so.
     fn remember(&mut self, memory: &mut Memory<'_, S>) -> bool;

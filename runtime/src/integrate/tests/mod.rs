@@ -248,6 +248,31 @@ fn single_precision_works_with_a_tolerance_beyond_its_digits() {
     assert!((integration.state()[0] - (-1.0_f32).exp()).abs() < 1e-5);
 }
 
+/// Over a tenth of an interval: no step is longer than a tenth of the whole by default.
+#[test]
+fn a_part_of_an_interval_has_the_steps_of_the_whole() {
+    fn longest<I: Moves<1>>(method: I) -> [f64; 2] {
+        [method, method.for_duration(10.0)].map(|method| {
+            let mut system = equation(|_: f64, _: &[f64; 1]| [1.0]);
+            let mut integration = method.start(&mut system, span(1.0, 1.0), [0.0]).unwrap();
+            let (mut time, mut longest) = (0.0, 0.0_f64);
+            while time < 1.0 {
+                integration.advance(&mut system).unwrap();
+                longest = longest.max(integration.time() - time);
+                time = integration.time();
+            }
+            longest
+        })
+    }
+    let tolerance = Tolerance::default();
+    let pair = DormandPrince::new(tolerance);
+    for [of_part, of_whole] in [longest(pair), longest(RadauIIA::new(tolerance))] {
+        assert!(of_part < 0.11 && of_whole > 0.3, "{of_part} {of_whole}");
+    }
+    let [_, of_whole] = longest(pair.largest_step(0.2));
+    assert!(of_whole < 0.21, "{of_whole}");
+}
+
 #[test]
 fn a_replaced_state_is_evaluated_anew() {
     let mut system = equation(|_: f64, &[y]: &[f64; 1]| [-y]);
