@@ -21,7 +21,7 @@ use crate::nonsmooth::pace::{Haste, Pace};
 use crate::nonsmooth::place::dot;
 use crate::nonsmooth::reader::Reader;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::sizes::{AT_BOUND, AT_REST, ROUND_OFF, part};
+use crate::nonsmooth::sizes::{AT_BOUND, ENDED, ROUND_OFF, part};
 use crate::nonsmooth::status::{Exerted, Next, Show, Tracked};
 use crate::nonsmooth::tied::{Tied, at, residuals};
 
@@ -98,7 +98,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let [along, across] = slip.components;
         let size = length([along, across]);
         let known = self.status.slip;
-        let none = part::<S>(AT_REST, ROUND_OFF) * self.status.largest;
+        let none = part::<S>(ENDED, ROUND_OFF) * self.status.largest;
         if self.status.ends || size <= none.max(S::smallest()) {
             let [x, y] = slip.directions.each_ref().map(|way| dot(way, &known));
             let size = length([x, y]).max(S::smallest());
