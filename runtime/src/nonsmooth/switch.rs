@@ -13,15 +13,16 @@ use crate::nonsmooth::law::{Friction, Limits, pushes};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::sizes::OF_TIME;
+use crate::nonsmooth::sizes::{ENDED, OF_TIME, ROUND_OFF, part};
 use crate::nonsmooth::status::{Impact, Next, Status, Tracked};
 use crate::state::vector::{Array, StateParts as _};
 
-/// Slip that a step has led to less than this part of what it is the sum of has ended.
-const ENDED: f64 = 1e-9;
-
 /// Energy that impulses bring, of what they take and bring in all, beyond which it is no round-off.
 const GAINS: f64 = 1e-9;
+
+/// An impulse that does less than this part of what all do to its quantity is nothing but how these
+/// share what they do together.
+const OF_IMPULSES: f64 = 1e-9;
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
     /// What comes after an instant: of a quantity on a limit or engaged, that rests there or goes
@@ -233,7 +234,7 @@ fn stick<S: Real, M: Mechanism, const K: usize>(
             }
         }
         let slip = length(slip);
-        let mut ended = found && slip <= S::constant(ENDED) * size;
+        let mut ended = found && slip <= part::<S>(ENDED, ROUND_OFF) * size;
         if let (Some(first), Some(_)) = (list.get_mut(first), second) {
             let status = &mut first.status;
             ended |= status.ends && status.is_found;
@@ -440,7 +441,8 @@ impl<S: Real> Status<S> {
     }
 }
 
-/// Leaves the impulses in the statuses, but those that are round-off of what rests meanwhile.
+/// Leaves the impulses in the statuses, but those that are round-off of what rests meanwhile, or of
+/// what the others do.
 fn report<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
     list: &mut [Tracked<S, M>; K],
@@ -470,7 +472,13 @@ where
         }));
     }
     for (index, (tracked, one)) in list.iter_mut().zip(all).enumerate() {
-        let is_felt = (matrix[index][index] * one.impulse).abs() > one.motion.none();
+        let terms = matrix[index].iter().zip(all);
+        let others = terms.fold(S::zero(), |sum, (&w, one)| (w * one.impulse).abs() + sum);
+        let none = one
+            .motion
+            .none()
+            .max(part::<S>(OF_IMPULSES, ROUND_OFF) * others);
+        let is_felt = (matrix[index][index] * one.impulse).abs() > none;
         if is_felt {
             let impact = Impact {
                 time: setting.saddle.time,

@@ -97,6 +97,65 @@ fn thrown_into_a_corner_it_comes_to_rest() {
     assert!(Bowling::velocity(&report.state, h.ball).norm() < 1e-12);
 }
 
+/// Its slip on one plane ends while it sticks on the other: from then on nothing moves, and friction
+/// bears what it has to.
+#[test]
+fn a_ball_that_stops_in_a_groove_sticks_on_both_planes() {
+    let friction = 0.3233;
+    let planes: [Vector3<f64>; 2] = [[0.637, -0.159, 0.755], [-0.785, 0.055, 0.617]]
+        .map(|normal| Vector3::from(normal).normalize());
+    let [first, second] = planes;
+    let place = (first + second) * RADIUS / (1.0 + first.dot(&second));
+    let [[a, b, c], [d, e, f]] = planes.map(|normal| {
+        Interaction::contact(
+            Bowling::HANDLES.ball,
+            Plane::on_ground([0.0; 3], normal.into()),
+        )
+        .radius(RADIUS)
+        .with_friction(friction)
+    });
+    let contacts = [a, b, c, d, e, f];
+    let handles = Interaction::handles(&contacts);
+    for relative in [1e-5, 2e-7, 1e-9] {
+        let tolerance = Tolerance {
+            relative,
+            absolute: 0.1 * relative,
+        };
+        let mut at_rest: Option<[f64; 6]> = None;
+        Bowling::default()
+            .simulation(StandardLagrange, DormandPrince::new(tolerance))
+            .initial_state(start(
+                place.into(),
+                [0.121, 0.172, -0.044],
+                [-0.983, -0.234, -1.038],
+            ))
+            .interactions(contacts)
+            .run(0.0..=0.1, every_step(), |sample| -> Result<(), Fault> {
+                let mut efforts = [0.0; 6];
+                for (effort, handle) in efforts.iter_mut().zip(handles) {
+                    *effort = sample.effort(handle)?;
+                }
+                for [normal, along, across] in [0, 3].map(|k| [0, 1, 2].map(|i| efforts[k + i])) {
+                    let bears = friction * normal * (1.0 + 1e-9);
+                    assert!(along.hypot(across) < bears, "{relative}: {efforts:?}");
+                }
+                if sample.time() > 0.03 {
+                    for friction in [handles[1], handles[4]] {
+                        assert_eq!(sample.mode(friction)?, InteractionMode::Sticking);
+                    }
+                    let kept = *at_rest.get_or_insert(efforts);
+                    for (effort, kept) in efforts.into_iter().zip(kept) {
+                        assert!((effort - kept).abs() < 1e-7, "{effort} {kept}");
+                    }
+                }
+                Ok(())
+            })
+            .expect("it stops");
+        let [_, along, across, ..] = at_rest.expect("it rests");
+        assert!(along.hypot(across) < 2.0, "{at_rest:?}");
+    }
+}
+
 /// All four corners hit at once, evenly: it bounces as a ball does.
 #[test]
 fn a_block_that_falls_flat_bounces_on_four_corners() {
@@ -109,7 +168,8 @@ fn a_block_that_falls_flat_bounces_on_four_corners() {
             contact.with_friction(0.3)
         });
     let contacts = [a, b, c, d, e, f, g, i, j, k, l, m];
-    let [normal, rubs, ..] = Interaction::handles(&contacts);
+    let handles = Interaction::handles(&contacts);
+    let [normal, rubs, ..] = handles;
     let hits = f64::sqrt(2.0 * height / GRAVITY);
     block
         .simulation(StandardLagrange, DormandPrince::new(tight()))
@@ -134,6 +194,10 @@ fn a_block_that_falls_flat_bounces_on_four_corners() {
             }
             let leans = sample.pose(h.block).orientation.coords.xy().norm();
             assert!(leans < 1e-12, "{leans}");
+            for (index, handle) in handles.into_iter().enumerate() {
+                let is_struck = sample.impact(handle)?.is_some();
+                assert!(!is_struck || index % 3 == 0, "friction has no part in that");
+            }
             if sample.time() > 1.0 {
                 assert_eq!(sample.mode(rubs)?, InteractionMode::Sticking);
                 let weight = 0.25 * 3.0 * GRAVITY;
