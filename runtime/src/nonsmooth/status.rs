@@ -320,9 +320,10 @@ impl<S: Real> Status<S> {
         }
     }
 
-    /// Whether a free flight has ended that never left the limit by more than round-off.
+    /// Whether it is in a free flight that never left the limit by more than round-off: what ends
+    /// that does not bounce, be it found there or together with another.
     pub(super) fn has_not_flown(&self) -> bool {
-        self.mode == InteractionMode::Free && self.is_found && !self.has_left
+        self.mode == InteractionMode::Free && !self.has_left
     }
 
     /// Whether a free flight that ends at a rate and a time (s) rose by no more than round-off: of
@@ -368,3 +369,6 @@ impl<S: Real> Status<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
