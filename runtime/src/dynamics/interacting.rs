@@ -11,7 +11,7 @@ use crate::nonsmooth::checked::check_all;
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::{Show, Tracked};
-use crate::nonsmooth::task::Task;
+use crate::nonsmooth::task::{Strike, Task};
 use crate::state::vector::{Array, MovingState, Vector as _};
 
 /// The interactions of a problem.
@@ -161,8 +161,14 @@ where
         state: &C::State<S>,
         is_moved: bool,
     ) -> Result<C::State<S>, Fault> {
+        let follows = |tracked: &Tracked<S, M>| tracked.status.follows();
+        let tries = self.tracked().iter().any(follows);
+        let how = Strike { is_moved, tries };
+        if !tries {
+            return self.switched_where(time, state, how);
+        }
         let before = self.forces.list_mut().map(|list| list.clone());
-        let next = self.switched_where(time, state, [is_moved, true]);
+        let next = self.switched_where(time, state, how);
         if !self.tracked().iter().any(|tracked| tracked.status.is_tried) {
             return next;
         }
@@ -176,14 +182,18 @@ where
         for (tracked, tried) in self.tracked_mut().iter_mut().zip(tried) {
             tracked.status.ends |= next.is_ok() && tried.status.is_tried && sticks(tried);
         }
-        self.switched_where(time, state, [is_moved, false])
+        let how = Strike {
+            tries: false,
+            ..how
+        };
+        self.switched_where(time, state, how)
     }
 
     fn switched_where(
         &mut self,
         time: S,
         state: &C::State<S>,
-        how: [bool; 2],
+        how: Strike,
     ) -> Result<C::State<S>, Fault> {
         let mut change = C::Velocities::<S>::zeros();
         self.change_list(|dynamics, list| {

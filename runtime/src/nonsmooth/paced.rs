@@ -64,7 +64,7 @@ impl<S: Real> Status<S> {
     }
 
     /// Whether it slips in a direction that follows the slip.
-    fn follows(&self) -> bool {
+    pub(crate) fn follows(&self) -> bool {
         self.mode == InteractionMode::Slipping && !self.begins && !self.ends
     }
 }

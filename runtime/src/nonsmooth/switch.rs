@@ -15,6 +15,7 @@ use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{ENDED, OF_TIME, ROUND_OFF, part};
 use crate::nonsmooth::status::{Impact, Next, Status, Tracked};
+use crate::nonsmooth::task::Strike;
 use crate::state::vector::{Array, StateParts as _};
 
 /// Energy that impulses bring, of what they take and bring in all, beyond which it is no round-off.
@@ -127,7 +128,7 @@ impl<S: Real> Struck<S> {
 pub(crate) fn impulses<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
     list: &mut [Tracked<S, M>; K],
-    [is_moved, tries]: [bool; 2],
+    Strike { is_moved, tries }: Strike,
     change: &mut C::Velocities<S>,
 ) -> Result<(), Fault>
 where
@@ -158,7 +159,8 @@ where
     for (index, tracked) in list.iter_mut().enumerate() {
         // Friction that is found has no rate, whether it stuck or slid: that takes no impulse.
         let is_found = tracked.status.is_found && tracked.friction().is_some();
-        let collides = tracked.collides(&mut all[index], &mut problem, index);
+        let may_bounce = is_moved || !tracked.status.has_not_flown();
+        let collides = tracked.collides(&mut all[index], may_bounce, &mut problem, index);
         all[index].is_struck = collides && (is_moved || !is_found);
     }
     let is_struck = all.iter().any(|one| one.is_struck);
@@ -379,6 +381,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
     fn collides<const K: usize>(
         &mut self,
         one: &mut Struck<S>,
+        may_bounce: bool,
         problem: &mut BoxProblem<S, K>,
         index: usize,
     ) -> bool {
@@ -388,7 +391,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             let approach = -(sign * motion.rate);
             let is_struck = approach > motion.none();
             if is_struck {
-                let restitution = self.status.restitution(limits, approach);
+                let restitution = self.status.restitution(limits, approach, may_bounce);
                 if limits.is_of_impulses {
                     one.restitution = restitution;
                 } else {
@@ -430,13 +433,12 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 
 impl<S: Real> Status<S> {
     /// The restitution of an approach.
-    fn restitution(&mut self, limits: &Limits<S>, approach: S) -> S {
+    fn restitution(&mut self, limits: &Limits<S>, approach: S, may_bounce: bool) -> S {
         self.fastest = self.fastest.max(approach);
-        // What does not rise above round-off does not bounce.
-        if self.has_not_flown() {
-            S::zero()
-        } else {
+        if may_bounce {
             limits.restitution(approach, self.fastest)
+        } else {
+            S::zero()
         }
     }
 }

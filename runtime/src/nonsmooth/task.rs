@@ -16,11 +16,19 @@ pub(crate) enum Task<'t, S: Real, M: Mechanism, C: Coordinates<M>> {
     /// What brings back what is held: changes of velocities, and of coordinates as velocities over
     /// a unit of time.
     Correct([&'t mut C::Velocities<S>; 2]),
-    /// Impulses, as changes of velocities: whether a handler has moved the mechanism, and whether
-    /// it is tried if little slip sticks.
-    Strike(&'t mut C::Velocities<S>, [bool; 2]),
+    /// Impulses, as changes of velocities.
+    Strike(&'t mut C::Velocities<S>, Strike),
     /// The modes that follow, from the solution without interactions.
     Choose(&'t Solution<S, M, C>),
+}
+
+/// How impulses are looked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Strike {
+    /// A handler has moved the mechanism.
+    pub(crate) is_moved: bool,
+    /// It is tried whether little slip sticks.
+    pub(crate) tries: bool,
 }
 
 impl<S: Real, M: Mechanism, C: Coordinates<M>> Task<'_, S, M, C> {

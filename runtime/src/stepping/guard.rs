@@ -28,16 +28,24 @@ pub(crate) trait Guard<S: Real, M: Mechanism> {
     fn beyond(&self, value: S) -> S;
 
     /// Keeps a number, and where it has passed up to there, until the step is ended or goes on.
-    fn keep(&mut self, equations: &mut dyn Evaluate<S, M>, value: S, root: Option<S>);
+    /// One that keeps nothing is a condition of the time and the motion alone.
+    fn keep(&mut self, _equations: &mut dyn Evaluate<S, M>, _value: S, _root: Option<S>) {}
 
     /// Goes on with the number that was kept.
-    fn go_on(&mut self, equations: &mut dyn Evaluate<S, M>);
+    fn go_on(&mut self, _equations: &mut dyn Evaluate<S, M>) {}
 
     /// Takes the number where a step ends early (s), be it by this one or by another.
     ///
     /// # Errors
     /// One that ends steps without end.
-    fn take(&mut self, equations: &mut dyn Evaluate<S, M>, time: S, value: S) -> Result<(), Fault>;
+    fn take(
+        &mut self,
+        _equations: &mut dyn Evaluate<S, M>,
+        _time: S,
+        _value: S,
+    ) -> Result<(), Fault> {
+        Ok(())
+    }
 }
 
 /// What is done with each guard.

@@ -167,17 +167,4 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Ahead<S> {
     fn beyond(&self, value: S) -> S {
         value
     }
-
-    fn keep(&mut self, _equations: &mut dyn Evaluate<S, M>, _value: S, _root: Option<S>) {}
-
-    fn go_on(&mut self, _equations: &mut dyn Evaluate<S, M>) {}
-
-    fn take(
-        &mut self,
-        _equations: &mut dyn Evaluate<S, M>,
-        _time: S,
-        _value: S,
-    ) -> Result<(), Fault> {
-        Ok(())
-    }
 }
