@@ -109,6 +109,30 @@ macro_rules! step_limits {
 }
 pub(super) use step_limits;
 
+/// What a [`Method`](crate::integrate::Method) with a tolerance and limits of steps tells of them.
+macro_rules! hooks_of_control {
+    ($S:ident) => {
+        fn tolerance(&self) -> Option<$crate::Tolerance<$S>> {
+            Some(self.tolerance)
+        }
+
+        fn for_length(&self, length: $S) -> Self {
+            Self {
+                tolerance: self.tolerance.for_length(length),
+                ..*self
+            }
+        }
+
+        fn for_duration(&self, duration: $S) -> Self {
+            Self {
+                limits: self.limits.for_duration(duration),
+                ..*self
+            }
+        }
+    };
+}
+pub(super) use hooks_of_control;
+
 /// A method whose settings are a tolerance and limits of steps, with its integration.
 macro_rules! controlled {
     ($(#[$attribute:meta])* $method:ident, $integration:ident $(, $estimate_power:expr)?) => {
@@ -168,23 +192,7 @@ macro_rules! controlled {
                 }
             })?
 
-            fn tolerance(&self) -> Option<$crate::Tolerance<S>> {
-                Some(self.tolerance)
-            }
-
-            fn for_length(&self, length: S) -> Self {
-                Self {
-                    tolerance: self.tolerance.for_length(length),
-                    ..*self
-                }
-            }
-
-            fn for_duration(&self, duration: S) -> Self {
-                Self {
-                    limits: self.limits.for_duration(duration),
-                    ..*self
-                }
-            }
+            $crate::integrate::controlled::hooks_of_control!(S);
 
             fn companion(&self, duration: S) -> Option<Self> {
                 Some(Self {

@@ -1,6 +1,6 @@
 //! Embedded pairs of Runge-Kutta methods, and what a user says of their steps.
 
-use super::controlled::step_limits;
+use super::controlled::{hooks_of_control, step_limits};
 use super::{
     AdaptiveIntegration, BogackiShampine3, DormandPrince5, DormandPrince8, ErrorModel, FixedStep,
     Integrator, Method, OneStep, Scheme, StepLimits, StepRecord, System, TimeSpan, Tolerance,
@@ -117,23 +117,7 @@ impl<S: Real, K: EmbeddedPair<S>> Method<S> for Adaptive<S, K> {
         }
     }
 
-    fn tolerance(&self) -> Option<Tolerance<S>> {
-        Some(self.tolerance)
-    }
-
-    fn for_length(&self, length: S) -> Self {
-        Self {
-            tolerance: self.tolerance.for_length(length),
-            ..*self
-        }
-    }
-
-    fn for_duration(&self, duration: S) -> Self {
-        Self {
-            limits: self.limits.for_duration(duration),
-            ..*self
-        }
-    }
+    hooks_of_control!(S);
 
     fn companion(&self, duration: S) -> Option<Self> {
         Some(Self {

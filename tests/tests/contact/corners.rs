@@ -97,8 +97,8 @@ fn thrown_into_a_corner_it_comes_to_rest() {
     assert!(Bowling::velocity(&report.state, h.ball).norm() < 1e-12);
 }
 
-/// Its slip on one plane ends while it sticks on the other: from then on nothing moves, and friction
-/// bears what it has to.
+/// Its slip on one plane ends while it sticks on the other: from then on nothing moves, and
+/// friction bears what it has to.
 #[test]
 fn a_ball_that_stops_in_a_groove_sticks_on_both_planes() {
     let friction = 0.3233;
