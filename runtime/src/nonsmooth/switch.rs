@@ -15,7 +15,6 @@ use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{ENDED, OF_TIME, ROUND_OFF, part};
 use crate::nonsmooth::status::{Impact, Next, Status, Tracked};
-use crate::nonsmooth::task::Strike;
 use crate::state::vector::{Array, StateParts as _};
 
 /// Energy that impulses bring, of what they take and bring in all, beyond which it is no round-off.
@@ -120,6 +119,15 @@ impl<S: Real> Struck<S> {
     fn is_chosen(&self) -> bool {
         self.is_engaged || self.at_limit.is_some()
     }
+}
+
+/// How impulses are looked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Strike {
+    /// A handler has moved the mechanism.
+    pub(crate) is_moved: bool,
+    /// It is tried whether little slip sticks.
+    pub(crate) tries: bool,
 }
 
 /// Impulses of limits and dogs at an instant: writes what they change of the velocities, and what

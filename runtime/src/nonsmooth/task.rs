@@ -9,6 +9,7 @@ use crate::mechanism::limits::{Several, VisitMut};
 use crate::nonsmooth::columns::Setting;
 use crate::nonsmooth::loads::Reactions;
 use crate::nonsmooth::status::Tracked;
+pub(crate) use crate::nonsmooth::switch::Strike;
 use crate::nonsmooth::{choice, efforts, switch};
 
 /// What is asked for.
@@ -20,15 +21,6 @@ pub(crate) enum Task<'t, S: Real, M: Mechanism, C: Coordinates<M>> {
     Strike(&'t mut C::Velocities<S>, Strike),
     /// The modes that follow, from the solution without interactions.
     Choose(&'t Solution<S, M, C>),
-}
-
-/// How impulses are looked for.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Strike {
-    /// A handler has moved the mechanism.
-    pub(crate) is_moved: bool,
-    /// It is tried whether little slip sticks.
-    pub(crate) tries: bool,
 }
 
 impl<S: Real, M: Mechanism, C: Coordinates<M>> Task<'_, S, M, C> {
