@@ -292,8 +292,8 @@ pub trait Method<S: Real>: Copy + Debug {
         *self
     }
 
-    /// The same method over a part of an interval of so many seconds: what it takes of an interval
-    /// by default, as the tenth that no step is longer than, it takes of the whole.
+    /// The same method over a part of an interval of so many seconds. Where its longest step is a
+    /// tenth of the interval by default, it is a tenth of the whole.
     fn for_duration(&self, _duration: S) -> Self {
         *self
     }

@@ -26,8 +26,8 @@ const PUT: f64 = 1e4;
 /// A rate of less than this part of what it is the sum of is none.
 pub(super) const AT_REST: f64 = 1e-11;
 
-/// Slip of a contact that a step has led to less than this part of what it is the sum of has ended:
-/// of less than that the direction is nothing but the error of the step.
+/// Slip of a contact has ended where a step has led it to less than this part of what it is the sum
+/// of. The direction of so little is nothing but the error of the step.
 pub(super) const ENDED: f64 = 1e-9;
 
 /// Round-off of a reading, in `EPSILON` of what it is made of.
