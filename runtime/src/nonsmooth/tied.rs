@@ -8,8 +8,14 @@ use crate::math::scalar::Real;
 /// Rounds of refinement at the most: they take out the floor on the diagonal.
 const ROUNDS: usize = 16;
 
-/// A change below so many `EPSILON` of the efforts ends them.
-const ENOUGH: f64 = 2.0;
+/// Residuals of so many `EPSILON` of their terms are zero.
+const ENOUGH: f64 = 4.0;
+
+/// A round that leaves more than this part of the residuals gains nothing. What is left then is
+/// round-off of the offsets up to so many `EPSILON` of their terms: to refine it further would
+/// change shares alone.
+const STALLED: f64 = 0.5;
+const INCONSISTENT: f64 = 1e3;
 
 /// The largest floor of what yields most: refinement then gains two digits a round.
 const YIELDING: f64 = 1e-2;
@@ -76,28 +82,25 @@ impl<S: Real, const K: usize> Tied<S, K> {
                 scales[index] = diagonal.sqrt().reciprocal();
             }
         }
-        let mut square = [[S::zero(); K]; K];
-        for (i, row) in square.iter_mut().enumerate() {
-            for (j, element) in row.iter_mut().enumerate() {
-                let mut sum = matrix[i][j];
-                for (index, follows) in self.follows.iter().enumerate() {
-                    if let Some((of, factor)) = *follows
-                        && of == j
-                    {
-                        sum = factor.fused(matrix[i][index], sum);
+        let mut square = *matrix;
+        for (index, follows) in self.follows.iter().enumerate() {
+            if let Some((of, factor)) = *follows {
+                for (row, from) in square.iter_mut().zip(matrix) {
+                    if let Some(element) = row.get_mut(of) {
+                        *element = factor.fused(from[index], *element);
                     }
                 }
-                *element = sum * scales[i] * scales[j];
             }
-            row[i] = if scales[i] > S::zero() {
-                let yields = largest.quotient(weights[i].max(S::smallest()));
-                let yields = yields.min(most_freely());
-                row[i] + floor * yields.max(S::one())
-            } else {
-                S::one()
-            };
         }
-        Lu::of(square, scales)
+        for (i, row) in square.iter_mut().enumerate() {
+            for (element, &scale) in row.iter_mut().zip(&scales) {
+                *element = *element * scales[i] * scale;
+            }
+            let yields = largest.quotient(weights[i].max(S::smallest()));
+            let yields = yields.min(most_freely());
+            row[i] = row[i] + floor * yields.max(S::one());
+        }
+        Lu::of(&square, scales)
     }
 
     /// The efforts that make the residuals of all that holds zero. Friction that sticks, of which
@@ -163,8 +166,7 @@ impl<S: Real, const K: usize> Tied<S, K> {
         efforts
     }
 
-    /// Adds to efforts what makes the residuals `W x + a` of all that holds zero; whether
-    /// refinement has ended.
+    /// Adds to efforts what makes the residuals `W x + a` of all that holds zero; whether it has.
     pub(super) fn complete(
         &self,
         (matrix, factors): (&[[S; K]; K], &Lu<S, K>),
@@ -172,23 +174,31 @@ impl<S: Real, const K: usize> Tied<S, K> {
         efforts: &mut [S; K],
     ) -> bool {
         self.follow(efforts);
+        let mut before = S::constant(f64::INFINITY);
         for _ in 0..ROUNDS {
-            let mut residuals = residuals(matrix, offset, efforts);
-            for (residual, holds) in residuals.iter_mut().zip(&self.holds) {
-                if !holds {
-                    *residual = S::zero();
+            let mut left = [S::zero(); K];
+            let mut worst = S::zero();
+            for index in 0..K {
+                if factors.scales[index] > S::zero() {
+                    let (mut sum, mut size) = (offset[index], offset[index].abs());
+                    for (&w, &x) in matrix[index].iter().zip(&*efforts) {
+                        (sum, size) = (w.fused(x, sum), w.abs().fused(x.abs(), size));
+                    }
+                    left[index] = sum;
+                    worst = worst.max(sum.abs().quotient(size.max(S::smallest())));
                 }
             }
-            let change = factors.solve(residuals);
-            let mut is_enough = true;
-            for (effort, change) in efforts.iter_mut().zip(change) {
-                *effort = *effort - change;
-                is_enough &= change.abs() <= S::constant(ENOUGH) * S::EPSILON * effort.abs();
-            }
-            self.follow(efforts);
-            if is_enough {
+            if worst <= S::constant(ENOUGH) * S::EPSILON {
                 return true;
             }
+            if worst > S::constant(STALLED) * before {
+                return worst <= S::constant(INCONSISTENT) * S::EPSILON;
+            }
+            before = worst;
+            for (effort, change) in efforts.iter_mut().zip(factors.solve(&left)) {
+                *effort = *effort - change;
+            }
+            self.follow(efforts);
         }
         false
     }
@@ -223,20 +233,40 @@ fn exchange<T: Copy, const K: usize>(elements: &mut [T; K], first: usize, second
     }
 }
 
-/// Triangular factors of a matrix, with exchanged rows.
+/// Triangular factors of a matrix, with exchanged rows, of those unknowns that have a scale.
 pub(super) struct Lu<S, const K: usize> {
+    /// How many unknowns there are, and which.
+    count: usize,
+    unknowns: [usize; K],
     factors: [[S; K]; K],
     rows: [usize; K],
-    /// What rows and columns were multiplied by.
+    /// What rows and columns are multiplied by; zero of what is no unknown.
     scales: [S; K],
 }
 
 impl<S: Real, const K: usize> Lu<S, K> {
-    pub(super) fn of(mut factors: [[S; K]; K], scales: [S; K]) -> Self {
-        let mut rows = core::array::from_fn(|row| row);
-        for k in 0..K {
+    /// Of a matrix in its scales.
+    pub(super) fn of(matrix: &[[S; K]; K], scales: [S; K]) -> Self {
+        let mut unknowns = [0; K];
+        let mut count = 0;
+        for (index, &scale) in scales.iter().enumerate() {
+            if let (true, Some(place)) = (scale > S::zero(), unknowns.get_mut(count)) {
+                *place = index;
+                count += 1;
+            }
+        }
+        let mut rows = unknowns;
+        let mut factors = [[S::zero(); K]; K];
+        for (row, &from) in factors.iter_mut().zip(&unknowns).take(count) {
+            if let Some(from) = matrix.get(from) {
+                for (element, &column) in row.iter_mut().zip(&unknowns).take(count) {
+                    *element = at(from, column);
+                }
+            }
+        }
+        for k in 0..count.min(K) {
             let mut largest = k;
-            for i in k + 1..K {
+            for i in k + 1..count.min(K) {
                 if factors[i][k].abs() > factors[largest][k].abs() {
                     largest = i;
                 }
@@ -245,41 +275,46 @@ impl<S: Real, const K: usize> Lu<S, K> {
             exchange(&mut rows, k, largest);
             let row = factors[k];
             let reciprocal = row[k].reciprocal();
-            for below in factors.iter_mut().skip(k + 1) {
+            for below in factors.iter_mut().take(count).skip(k + 1) {
                 let factor = below[k] * reciprocal;
                 below[k] = factor;
-                for (element, &above) in below.iter_mut().zip(&row).skip(k + 1) {
+                for (element, &above) in below.iter_mut().zip(&row).take(count).skip(k + 1) {
                     *element = *element - factor * above;
                 }
             }
         }
         Self {
+            count,
+            unknowns,
             factors,
             rows,
             scales,
         }
     }
 
-    /// The solution, in the units of the matrix without its scales.
-    pub(super) fn solve(&self, right: [S; K]) -> [S; K] {
-        let mut x: [S; K] = core::array::from_fn(|row| {
-            let from = self.rows[row];
-            at(&right, from) * at(&self.scales, from)
-        });
-        for i in 0..K {
+    /// The solution, in the units of the matrix without its scales; zero of what is no unknown.
+    pub(super) fn solve(&self, right: &[S; K]) -> [S; K] {
+        let count = self.count.min(K);
+        let mut x: [S; K] = self
+            .rows
+            .map(|from| at(right, from) * at(&self.scales, from));
+        for i in 0..count {
             for k in 0..i {
                 x[i] = x[i] - self.factors[i][k] * x[k];
             }
         }
-        for i in (0..K).rev() {
-            for k in i + 1..K {
+        for i in (0..count).rev() {
+            for k in i + 1..count {
                 x[i] = x[i] - self.factors[i][k] * x[k];
             }
             x[i] = x[i].quotient(self.factors[i][i]);
         }
-        for (x, &scale) in x.iter_mut().zip(&self.scales) {
-            *x = *x * scale;
+        let mut solution = [S::zero(); K];
+        for (&x, &index) in x.iter().zip(&self.unknowns).take(count) {
+            if let Some(place) = solution.get_mut(index) {
+                *place = x * at(&self.scales, index);
+            }
         }
-        x
+        solution
     }
 }

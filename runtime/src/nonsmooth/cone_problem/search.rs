@@ -221,13 +221,13 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
             let [_, floor] = floors();
             let factors = tied.factors(&self.matrix, &[S::one(); K], floor);
             let mut jacobian = [[S::zero(); K]; K];
-            let mut turning = [S::zero(); K];
+            let (mut turning, mut scales) = ([S::zero(); K], [S::zero(); K]);
             let mut is_found = true;
             for index in 0..K {
-                jacobian[index][index] = S::one();
                 let Some((rough, direction)) = self.beginning(choices, sought, index) else {
                     continue;
                 };
+                scales[index] = S::one();
                 let [x, y] = direction;
                 let rate = rough.read(&rates);
                 turning[index] = x * rate[1] - y * rate[0];
@@ -258,7 +258,7 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
             if is_found {
                 return Some(efforts);
             }
-            let step = Lu::of(jacobian, [S::one(); K]).solve(turning);
+            let step = Lu::of(&jacobian, scales).solve(&turning);
             for index in 0..K {
                 if let (Some((_, [x, y])), Choice::On(bears, _)) =
                     (self.beginning(choices, sought, index), choices[index])
