@@ -51,7 +51,8 @@ where
     }
     let chosen = list.each_ref().map(|tracked| tracked.may_act());
     let columns = Columns::of(setting, list, &chosen)?;
-    let offset = setting.accelerations(list, &free.accelerations);
+    let bias = setting.bias(list);
+    let offset = columns.accelerations(setting, list, &bias, &free.accelerations);
     let mut problem = BoxProblem::at_rest(columns.delassus, offset);
     let motions: [Motion<S>; K] =
         setting.here(|scene| list.each_mut().map(|tracked| Motion::of(tracked, scene)));

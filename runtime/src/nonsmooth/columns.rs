@@ -6,7 +6,7 @@ use crate::forward::{Forward, lifted};
 use crate::math::scalar::Real;
 use crate::mechanism::coordinates::{AbsoluteEquations, Coordinates};
 use crate::mechanism::kernels::Mechanism;
-use crate::nonsmooth::reader::Reader;
+use crate::nonsmooth::reader::{LiftedReader, Reader};
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Tracked;
 use crate::state::vector::{Array, MovingState, StateParts as _, Vector};
@@ -90,44 +90,43 @@ where
         })
     }
 
-    /// What velocities add to the rates of all quantities.
+    /// What velocities add to the rates of those quantities that are asked for; zeros of others.
     fn added<const K: usize>(
         &self,
         list: &[Tracked<S, M>; K],
         parts: &Parts<S, M, K>,
         velocities: &C::Velocities<S>,
+        is_asked: impl Fn(usize) -> bool,
     ) -> [S; K] {
         self.with_velocities(velocities, |scene| {
-            let moving = scene.bodies.velocities().as_slice();
-            core::array::from_fn(|index| match &parts.rows[index] {
-                Some(row) => {
-                    let by = moving.iter().zip(parts.still.as_slice());
-                    let terms = row.as_slice().iter().zip(by);
-                    terms.fold(S::zero(), |sum, (&part, (&moving, &still))| {
-                        part.fused(moving - still, sum)
-                    })
+            let mut moving = *scene.bodies.velocities();
+            let still = parts.still.as_slice();
+            for (moving, &still) in moving.as_mut_slice().iter_mut().zip(still) {
+                *moving = *moving - still;
+            }
+            let mut added = [S::zero(); K];
+            for (index, rate) in added.iter_mut().enumerate() {
+                if is_asked(index) {
+                    *rate = match &parts.rows[index] {
+                        Some(row) => {
+                            let terms = row.as_slice().iter().zip(moving.as_slice());
+                            terms.fold(S::zero(), |sum, (&part, &by)| part.fused(by, sum))
+                        }
+                        None => list[index].interaction.quantity.rate(scene) - parts.offset[index],
+                    };
                 }
-                None => list[index].interaction.quantity.rate(scene) - parts.offset[index],
-            })
+            }
+            added
         })
     }
 
-    /// The accelerations of all quantities at these rates of the velocities, exact to round-off.
+    /// The accelerations of all quantities where the rates of the velocities are zero.
     #[inline(never)]
-    pub(crate) fn accelerations<const K: usize>(
-        &self,
-        list: &[Tracked<S, M>; K],
-        accelerations: &C::Velocities<S>,
-    ) -> [S; K] {
+    pub(crate) fn bias<const K: usize>(&self, list: &[Tracked<S, M>; K]) -> [S; K] {
         let mut rates = *self.rates;
         let (constants, state) = (self.saddle.constants, self.saddle.state);
-        C::finish(
-            constants,
-            self.saddle.time,
-            state,
-            &mut rates,
-            accelerations,
-        );
+        let nothing = C::Velocities::<S>::zeros();
+        C::finish(constants, self.saddle.time, state, &mut rates, &nothing);
         let mut moving = C::State::<Moving<S>>::zeros();
         let mut along = moving;
         for index in 0..state.length() {
@@ -144,13 +143,12 @@ where
                 time: Forward::new(self.saddle.time, [S::one()]),
                 bodies,
             };
-            let mut reader = Reader::of(&scene);
-            let rate = |tracked: &Tracked<S, M>| {
-                let quantity = tracked.interaction.quantity.lifted::<1>();
-                let [acceleration] = reader.rate(&quantity).derivatives();
+            let mut reader = LiftedReader::of(&scene);
+            list.each_ref().map(|tracked| {
+                let rate = reader.rate(&tracked.interaction.quantity);
+                let [acceleration] = rate.derivatives();
                 acceleration
-            };
-            list.each_ref().map(rate)
+            })
         })
     }
 }
@@ -185,6 +183,7 @@ pub(crate) struct Columns<S: Real, M: Mechanism, C: Coordinates<M>, const K: usi
     /// What it would do to its own rate without constraints.
     pub(super) free: [S; K],
     chosen: [bool; K],
+    parts: Parts<S, M, K>,
 }
 
 impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, K> {
@@ -201,15 +200,15 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, 
             delassus: [[S::zero(); K]; K],
             free: [S::zero(); K],
             chosen: *chosen,
+            parts: setting.parts(list),
         };
-        let parts = setting.parts(list);
         let mass = M::metric::<S>(&setting.absolute.constants);
         let zero = S::zero();
         for (index, tracked) in list.iter().enumerate() {
             if !chosen[index] {
                 continue;
             }
-            let loads = parts.rows[index].unwrap_or_else(|| {
+            let loads = columns.parts.rows[index].unwrap_or_else(|| {
                 let mut loads = M::Velocities::<S>::zeros();
                 setting.here(|scene| {
                     let quantity = &tracked.interaction.quantity;
@@ -222,7 +221,9 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, 
                 (load * load).fused(mass.reciprocal(), sum)
             });
             let (velocities, multipliers) = solved(setting, &loads)?;
-            let rates = setting.added(list, &parts, &velocities);
+            // Of what is chosen both halves of the matrix are the same.
+            let is_asked = |row: usize| row >= index || !chosen[row];
+            let rates = setting.added(list, &columns.parts, &velocities, is_asked);
             columns.velocities[index] = velocities;
             columns.multipliers[index] = multipliers;
             columns.free[index] = free;
@@ -234,21 +235,33 @@ impl<S: Real, M: Mechanism, C: Coordinates<M>, const K: usize> Columns<S, M, C, 
                 columns.delassus[row][index] = rate;
             }
         }
-        columns.symmetrise(chosen);
-        Ok(columns)
-    }
-
-    /// Both halves are the same to round-off; rows of what was not chosen are those of its columns.
-    fn symmetrise(&mut self, chosen: &[bool; K]) {
         for i in 0..K {
             for j in 0..i {
                 if chosen[i] && chosen[j] {
-                    let sum = self.delassus[i][j] + self.delassus[j][i];
-                    let mean = S::constant(0.5) * sum;
-                    (self.delassus[i][j], self.delassus[j][i]) = (mean, mean);
+                    if columns.delassus[i][i] == zero {
+                        columns.delassus[i][j] = zero;
+                    }
+                    columns.delassus[j][i] = columns.delassus[i][j];
                 }
             }
         }
+        Ok(columns)
+    }
+
+    /// The accelerations of all quantities at these rates of the velocities, exact to round-off:
+    /// what these add to a [bias](Setting::bias).
+    pub(crate) fn accelerations<F: Formulation<S>>(
+        &self,
+        setting: &Setting<'_, S, M, F, C>,
+        list: &[Tracked<S, M>; K],
+        bias: &[S; K],
+        accelerations: &C::Velocities<S>,
+    ) -> [S; K] {
+        let mut all = setting.added(list, &self.parts, accelerations, |_| true);
+        for (sum, &bias) in all.iter_mut().zip(bias) {
+            *sum = *sum + bias;
+        }
+        all
     }
 
     /// The velocities and multipliers of one that was chosen.

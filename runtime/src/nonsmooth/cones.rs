@@ -87,11 +87,17 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         }
     }
 
+    /// Whether its contact slips, and it tells how: the friction in the first direction does.
+    fn tells_slip(&self) -> bool {
+        let is_first = self.tangent().is_some_and(|tangent| tangent.behind == 1);
+        is_first && self.mode() == InteractionMode::Slipping
+    }
+
     /// The direction of the slip at its contact, along the directions of its surface. Beyond its
     /// zero, as a step that ends its mode looks there, it is the one until then: so the friction of
     /// a step goes on smoothly. Slip that only turns does not come near the opposite direction.
     fn direction_of_slip(&self, reader: &mut Reader<'_, S, M>) -> [S; 2] {
-        if self.mode() != InteractionMode::Slipping {
+        if !self.tells_slip() {
             return [S::zero(); 2];
         }
         let slip = self.slip(reader);
@@ -111,7 +117,7 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 
     /// The direction (global) of its slip, and when a step from there ends at the latest.
     pub(crate) fn slip_at(&self, scene: &Scene<'_, S, M>) -> ([S; 3], Option<Pace<S>>) {
-        if self.mode() != InteractionMode::Slipping {
+        if !self.tells_slip() {
             return (self.status.slip, None);
         }
         let mut reader = Reader::of(scene);
@@ -310,7 +316,8 @@ where
 {
     let chosen = list.each_ref().map(|tracked| tracked.may_act());
     let columns = Columns::of(setting, list, &chosen)?;
-    let offset = setting.accelerations(list, &free.accelerations);
+    let bias = setting.bias(list);
+    let offset = columns.accelerations(setting, list, &bias, &free.accelerations);
     let motions: [Motion<S>; K] =
         setting.here(|scene| list.each_mut().map(|tracked| Motion::of(tracked, scene)));
     let slips = setting.here(|scene| {
@@ -542,10 +549,11 @@ where
     let mut hastes = None;
     if chosen.contains(&true) {
         let columns = Columns::of(setting, list, &chosen)?;
-        let sticking = sticking(list);
+        let (sticking, bias) = (sticking(list), setting.bias(list));
         // Correction is for what goes on from here: efforts alone are there after the first round.
         for round in 0..if show.is_some() { 1 } else { ROUNDS } {
-            let accelerations = setting.accelerations(list, &solution.accelerations);
+            let solved = &solution.accelerations;
+            let accelerations = columns.accelerations(setting, list, &bias, solved);
             if round == 0 && list.iter().any(Tracked::begins) {
                 let problem = ConeProblem {
                     matrix: columns.delassus,

@@ -136,9 +136,14 @@ where
             )?);
         }
         let factors = Factors::of(&columns.delassus, &holds);
+        let bias = if any_holds {
+            setting.bias(list)
+        } else {
+            [S::zero(); K]
+        };
         for round in 0..if any_holds { ROUNDS } else { 1 } {
             let accelerations = if any_holds {
-                setting.accelerations(list, &solution.accelerations)
+                columns.accelerations(setting, list, &bias, &solution.accelerations)
             } else {
                 [S::zero(); K]
             };

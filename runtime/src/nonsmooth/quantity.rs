@@ -167,9 +167,19 @@ impl<S: Scalar> Quantity<S> {
         }
     }
 
+    /// The point, the surface and the shape that touch; `None` of what is no contact.
+    pub(super) fn contact_parts(&self) -> Option<(&At, &Surface<S>, &Shape<S>)> {
+        match self {
+            Self::Gap(at, surface, shape) | Self::Slip(at, surface, shape, _) => {
+                Some((at, surface, shape))
+            }
+            _ => None,
+        }
+    }
+
     /// Whether it is of what touches at a contact.
     pub(super) fn is_contact(&self) -> bool {
-        matches!(self, Self::Gap(..) | Self::Slip(..))
+        self.contact_parts().is_some()
     }
 
     /// Along which direction of a surface; `None` of all but slip.

@@ -1,5 +1,6 @@
 //! Quantities of a list, read in its order.
 
+use crate::forward::Forward;
 use crate::math::scalar::Scalar;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::readout::ContactPoint;
@@ -34,10 +35,7 @@ impl<'s, S: Scalar, M: Mechanism> Reader<'s, S, M> {
 
     /// What touches at a contact; `None` of what is none.
     pub(super) fn touch(&mut self, quantity: &Quantity<S>) -> Option<&Touch<S>> {
-        let (Quantity::Gap(at, surface, shape) | Quantity::Slip(at, surface, shape, _)) = quantity
-        else {
-            return None;
-        };
+        let (at, surface, shape) = quantity.contact_parts()?;
         let is_last = self
             .last
             .as_ref()
@@ -64,13 +62,41 @@ impl<'s, S: Scalar, M: Mechanism> Reader<'s, S, M> {
     /// Calls with every velocity of the bodies of a quantity, and its part in the rate.
     pub(crate) fn each_part(&mut self, quantity: &Quantity<S>, each: impl FnMut(usize, S)) {
         let scene = self.scene;
-        match (quantity, self.touch(quantity)) {
-            (Quantity::Gap(at, surface, _) | Quantity::Slip(at, surface, ..), Some(touch)) => {
+        match (quantity.contact_parts(), self.touch(quantity)) {
+            (Some((at, surface, _)), Some(touch)) => {
                 let direction = quantity.direction();
                 scene.each_part_of_touch((*at, surface, touch), direction, each);
             }
             _ => quantity.each_part_between(&scene, each),
         }
+    }
+}
+
+/// Reads rates in a scene that carries derivatives.
+pub(crate) struct LiftedReader<'s, S: Scalar, M: Mechanism, const N: usize> {
+    reader: Reader<'s, Forward<S, N>, M>,
+    last: Option<Quantity<S>>,
+}
+
+impl<'s, S: Scalar, M: Mechanism, const N: usize> LiftedReader<'s, S, M, N> {
+    pub(crate) fn of(scene: &Scene<'s, Forward<S, N>, M>) -> Self {
+        Self {
+            reader: Reader::of(scene),
+            last: None,
+        }
+    }
+
+    /// The rate of a quantity.
+    pub(crate) fn rate(&mut self, quantity: &Quantity<S>) -> Forward<S, N> {
+        let is_last = self
+            .last
+            .as_ref()
+            .is_some_and(|last| last.contact_parts() == quantity.contact_parts());
+        if let (true, Some(contact)) = (is_last, &self.reader.last) {
+            return contact.touch.rate_along(quantity.direction());
+        }
+        self.last = quantity.is_contact().then_some(*quantity);
+        self.reader.rate(&quantity.lifted())
     }
 }
 
