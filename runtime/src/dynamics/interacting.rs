@@ -7,10 +7,11 @@ use crate::math::scalar::Real;
 use crate::measure::load::AppliedForces;
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
+use crate::mechanism::limits::Several as _;
 use crate::nonsmooth::checked::check_all;
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::status::{Show, Tracked};
+use crate::nonsmooth::status::{Exerted, Show, Tracked};
 use crate::nonsmooth::task::{Strike, Task};
 use crate::state::vector::{Array, MovingState, Vector as _};
 
@@ -90,14 +91,15 @@ where
 
     /// Leaves what all interactions exert in a state in their statuses.
     pub(crate) fn keep_efforts(&mut self, time: S, state: &C::State<S>) -> Result<(), Fault> {
-        let kept = self.change_list(|dynamics, list| {
-            dynamics.efforts(time, state, &mut |all| {
-                for (tracked, exerted) in list.as_mut().iter_mut().zip(all) {
-                    tracked.status.exerted = *exerted;
-                }
-            })
-        });
-        kept.map(|_| ())
+        let mut exerted = List::<P>::each(Exerted::nothing());
+        self.efforts(time, state, &mut |all| {
+            let places = exerted.as_mut().iter_mut();
+            places.zip(all).for_each(|(place, one)| *place = *one);
+        })?;
+        for (tracked, exerted) in self.tracked_mut().iter_mut().zip(exerted.as_ref()) {
+            tracked.status.exerted = *exerted;
+        }
+        Ok(())
     }
 
     /// The power (W) of friction that slides by its load, which is no force of a closure; `None`

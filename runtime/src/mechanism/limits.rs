@@ -20,6 +20,12 @@ pub trait Several<T>: AsRef<[T]> + AsMut<[T]> + Clone {
     /// How many.
     const COUNT: usize;
 
+    /// As many things of another type.
+    type Each<R: Copy>: AsRef<[R]> + AsMut<[R]>;
+
+    /// One thing for each.
+    fn each<R: Copy>(one: R) -> Self::Each<R>;
+
     /// Visits them as an array. [`Nothing`] has none to visit, so nothing is compiled for it.
     fn visit<V: Visit<T>>(&self, visit: V) -> Option<V::Output>;
 
@@ -69,6 +75,13 @@ impl<T> AsMut<[T]> for Nothing {
 impl<T> Several<T> for Nothing {
     const COUNT: usize = 0;
 
+    type Each<R: Copy> = Nothing;
+
+    #[inline(always)]
+    fn each<R: Copy>(_one: R) -> Nothing {
+        Nothing
+    }
+
     #[inline(always)]
     fn visit<V: Visit<T>>(&self, _visit: V) -> Option<V::Output> {
         None
@@ -82,6 +95,13 @@ impl<T> Several<T> for Nothing {
 
 impl<T: Clone, const K: usize> Several<T> for [T; K] {
     const COUNT: usize = K;
+
+    type Each<R: Copy> = [R; K];
+
+    #[inline(always)]
+    fn each<R: Copy>(one: R) -> [R; K] {
+        [one; K]
+    }
 
     #[inline(always)]
     fn visit<V: Visit<T>>(&self, visit: V) -> Option<V::Output> {
