@@ -2,7 +2,9 @@
 
 use crate::math::scalar::Real;
 use crate::nonsmooth::cone_problem::choices::{Choice, Friction, Role, Rough};
-use crate::nonsmooth::cone_problem::{ConeProblem, ConeSolution, NoSolution, UNCERTAIN, length};
+use crate::nonsmooth::cone_problem::{
+    ConeProblem, ConeSolution, NoSolution, Outcome, UNCERTAIN, length,
+};
 use crate::nonsmooth::tied::{Lu, Tied, floors, residuals};
 
 /// Choices of modes at the most.
@@ -13,6 +15,10 @@ const DIFFERENT: f64 = 1e-6;
 
 /// Steps of Newton's method for directions of slip.
 const STEPS: usize = 20;
+
+/// Directions that are off by so many `EPSILON` over the floor of shares are found where a step no
+/// longer halves that: shares of what motion does not determine are known to no more digits.
+const OF_SHARES: f64 = 16.0;
 
 /// Directions from which it starts, before that of relaxation.
 const STARTS: usize = 8;
@@ -42,7 +48,7 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
             match &found {
                 None => found = Some(next),
                 Some(first) if self.differ(first, &next) => return Err(NoSolution::Several),
-                Some(first) if next.idle < first.idle => found = Some(next),
+                Some(first) if self.is_before(&next, first) => found = Some(next),
                 Some(_) => {}
             }
         }
@@ -107,8 +113,32 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
         })
     }
 
-    /// Whether contacts open differently. Where only the shares of a load differ, and with them
-    /// what friction does, the one that was tried first is taken: that which holds most.
+    /// Whether a solution is taken in the place of another one, where only the shares of a load
+    /// differ, and with them what friction does. Whatever the order of contacts is: the one in
+    /// which fewer slip idly, or in which more of them bear, or which shares more evenly.
+    fn is_before(&self, next: &ConeSolution<S, K>, first: &ConeSolution<S, K>) -> bool {
+        if next.idle != first.idle {
+            return next.idle < first.idle;
+        }
+        let (mut bearing, mut before): (usize, usize) = (0, 0);
+        let (mut uneven, mut terms) = (S::zero(), S::zero());
+        for (index, role) in self.roles.iter().enumerate() {
+            if matches!(role, Role::Pushes { .. }) {
+                bearing += usize::from(next.outcomes[index] == Outcome::Holds);
+                before += usize::from(first.outcomes[index] == Outcome::Holds);
+                let size = |effort: S| self.matrix[index][index] * effort * effort;
+                let [now, then] = [next, first].map(|one| size(one.efforts[index]));
+                uneven = uneven + (now - then);
+                terms = terms + (now + then);
+            }
+        }
+        if bearing != before {
+            return bearing > before;
+        }
+        uneven < -(S::constant(DIFFERENT) * terms)
+    }
+
+    /// Whether contacts open differently.
     fn differ(&self, a: &ConeSolution<S, K>, b: &ConeSolution<S, K>) -> bool {
         let sizes = [self.sizes(&a.efforts), self.sizes(&b.efforts)];
         let is_limit = |index: &usize| matches!(self.roles[*index], Role::Pushes { .. });
@@ -213,16 +243,17 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
     /// The efforts where slip begins in directions that are looked for by Newton's method, so that
     /// each is that of its residual.
     fn directed(&self, choices: &mut [Choice<S>; K], sought: &[bool; K]) -> Option<[S; K]> {
+        let mut before = S::constant(f64::INFINITY);
         for _ in 0..STEPS {
             let efforts = self.efforts(choices)?;
             let rates = residuals(&self.matrix, &self.offset, &efforts);
             let sizes = self.sizes(&efforts);
             let Guess { tied, .. } = self.guess(choices);
-            let [_, floor] = floors();
+            let [of_shares, floor] = floors();
             let factors = tied.factors(&self.matrix, &[S::one(); K], floor);
             let mut jacobian = [[S::zero(); K]; K];
             let (mut turning, mut scales) = ([S::zero(); K], [S::zero(); K]);
-            let mut is_found = true;
+            let mut worst = S::zero();
             for index in 0..K {
                 let Some((rough, direction)) = self.beginning(choices, sought, index) else {
                     continue;
@@ -232,8 +263,8 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
                 let rate = rough.read(&rates);
                 turning[index] = x * rate[1] - y * rate[0];
                 let size = rough.read(&sizes);
-                let noise = S::constant(UNCERTAIN) * S::EPSILON * (size[0] + size[1]);
-                is_found &= turning[index].abs() <= noise;
+                let size = (size[0] + size[1]).max(S::smallest());
+                worst = worst.max(turning[index].abs().quotient(size));
                 // What a turn of the direction does to all rates.
                 let bears = rough.coefficient * efforts[index];
                 let across = [y * bears, -(x * bears)];
@@ -255,9 +286,13 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
                 }
                 jacobian[index][index] = jacobian[index][index] - (x * rate[0] + y * rate[1]);
             }
-            if is_found {
+            let gains_nothing = worst > S::constant(0.5) * before;
+            let nearly = (S::constant(OF_SHARES) * S::EPSILON).quotient(of_shares);
+            let is_found = worst <= S::constant(UNCERTAIN) * S::EPSILON;
+            if is_found || gains_nothing && worst <= nearly {
                 return Some(efforts);
             }
+            before = worst;
             let step = Lu::of(&jacobian, scales).solve(&turning);
             for index in 0..K {
                 if let (Some((_, [x, y])), Choice::On(bears, _)) =
