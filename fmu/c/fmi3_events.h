@@ -5,7 +5,7 @@
  * At a limit the rate of the joint turns back by the restitution of the limit. An approach that is
  * slower than REST times the fastest one so far has none. A unit has no mode for a joint that a limit
  * holds: the simulation ends where a joint does not move there and is pressed against it, and where
- * an importer sees nothing of a bounce between two impacts.
+ * an importer sees nothing of a bounce between two impacts, or sees its start again and again.
  */
 #ifndef FMI3_EVENTS_H
 #define FMI3_EVENTS_H
@@ -21,6 +21,9 @@
 #define STATUS_LIMIT 4
 /* So many impacts in one step are without end. */
 #define MOST_IMPACTS 1000
+/* So many events while a joint leaves a limit say that an importer does not resolve its flight: one
+ * is where its distance passes zero upwards. */
+#define MOST_IDLE 3
 
 /* Variables, which comparisons with zero may be of. */
 static const size_t limited = FMU_LIMITED, switching = FMU_SWITCHES;
@@ -156,16 +159,27 @@ static fmi3Status strike(mechanism *m, bool *are_struck, bool *rests)
 {
     fmu_gaps gaps;
     double rest = 0.0;
+    const double now = m->now.state.number[0];
     get_gaps(m, &gaps);
     for (size_t joint = 0; joint < limited; ++joint) {
         double approach, *fastest = &m->now.fastest[joint];
         const size_t place = nearer(&gaps, joint, &approach);
+        if (gaps.number[place] <= AT_LIMIT && approach < 0.0 && now > m->now.idle_at[joint]) {
+            m->now.idle_at[joint] = now;
+            m->now.idle[joint] += 1.0;
+            if (m->now.idle[joint] > MOST_IDLE) {
+                *rests = is_at_rest(m, place);
+                return fmi3OK;
+            }
+        }
         if (gaps.number[place] <= AT_LIMIT && approach > 0.0) {
             if (m->now.is_within[joint] == 0.0) {
                 *rests = is_at_rest(m, place);
                 return fmi3OK;
             }
             m->now.is_within[joint] = 0.0;
+            m->now.idle[joint] = 0.0;
+            m->now.idle_at[joint] = now;
             *fastest = fmax(*fastest, approach);
             rest = fmax(rest, REST * *fastest);
             *are_struck = true;
@@ -208,6 +222,7 @@ static fmi3Status step_between_limits(mechanism *m, double step, bool *rests)
         are_struck = false;
         for (size_t joint = 0; joint < limited; ++joint) {
             m->now.is_within[joint] = 1.0;
+            m->now.idle[joint] = 0.0;
         }
         const fmi3Status struck = strike(m, &are_struck, rests);
         if (struck != fmi3OK || *rests) {

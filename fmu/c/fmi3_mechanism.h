@@ -80,6 +80,9 @@ typedef struct {
     double fastest[AT_LEAST_ONE(FMU_LIMITED)];
     /* Not zero where a joint has been within its limits since the last impact. */
     double is_within[AT_LEAST_ONE(FMU_LIMITED)];
+    /* At how many events each joint has been leaving a limit since then, and the last one (s). */
+    double idle[AT_LEAST_ONE(FMU_LIMITED)];
+    double idle_at[AT_LEAST_ONE(FMU_LIMITED)];
     /* Not zero where an importer has set a state by its name. */
     double is_set[FMU_STATES];
 } values;
@@ -241,6 +244,8 @@ static void start(mechanism *m)
     for (size_t k = 0; k < AT_LEAST_ONE(FMU_LIMITED); ++k) {
         m->now.fastest[k] = 0.0;
         m->now.is_within[k] = 1.0;
+        m->now.idle[k] = 0.0;
+        m->now.idle_at[k] = 0.0;
     }
     memset(m->now.is_set, 0, sizeof m->now.is_set);
     m->changed = PARAMETERS;

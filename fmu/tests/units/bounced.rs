@@ -108,6 +108,16 @@ fn a_unit_ends_where_a_joint_comes_to_rest_at_a_limit() {
     }
 }
 
+#[test]
+fn a_unit_ends_where_an_importer_does_not_resolve_a_bounce() {
+    let bounced = unit(&stopped(0.3, 20.0), "unresolved");
+    let (rows, logged) = run(&bounced, "unresolved", "idle");
+    // While it leaves.
+    ended(&rows, &logged, 0.36, [1e-7, 3.0]);
+    let [_, _, rate] = *rows.last().expect("one");
+    assert!(rate < -0.1, "{rate}");
+}
+
 /// A unit has ended at its upper limit, before a time (s), and has said so.
 fn ended(rows: &[[f64; 3]], logged: &str, end: f64, [near, slow]: [f64; 2]) {
     let [time, place, rate] = *rows.last().expect("one");

@@ -20,6 +20,8 @@
 
 static fmi3Instance unit;
 static size_t states, indicators;
+/* Whether there is an event again and again where a joint leaves its limit. */
+static bool is_idle;
 
 static void logged(
     fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message)
@@ -70,6 +72,19 @@ static bool crossed(const double *a, const double *b)
     return any;
 }
 
+/* Event mode; whether the unit asks to end. */
+static bool event(double *x, bool *changed)
+{
+    bool again, terminate, nominals, has_next;
+    double instant;
+    OK(fmi3EnterEventMode(unit));
+    OK(fmi3UpdateDiscreteStates(
+        unit, &again, &terminate, &nominals, changed, &has_next, &instant));
+    CHECK(!again && !nominals && !has_next);
+    OK(fmi3GetContinuousStates(unit, x, states));
+    return terminate;
+}
+
 /* Steps up to an end; whether the unit asks to end. */
 static bool moved(double *time, double end, double *x)
 {
@@ -98,13 +113,17 @@ static bool moved(double *time, double end, double *x)
         memcpy(x, next, states * sizeof *x);
         OK(fmi3CompletedIntegratorStep(unit, true, &enter, &terminate));
         if (is_event || enter) {
-            bool again, nominals, changed, has_next;
-            double instant;
-            OK(fmi3EnterEventMode(unit));
-            OK(fmi3UpdateDiscreteStates(
-                unit, &again, &terminate, &nominals, &changed, &has_next, &instant));
-            CHECK(!again && !nominals && !has_next);
-            OK(fmi3GetContinuousStates(unit, x, states));
+            bool changed;
+            terminate = event(x, &changed);
+            /* As an importer that takes a whole flight for one step of the first order. */
+            for (int k = 0; is_idle && changed && !terminate; ++k) {
+                CHECK(k < 10);
+                OK(fmi3EnterContinuousTimeMode(unit));
+                OK(fmi3SetTime(unit, *time += 1e-9));
+                bool is_struck;
+                terminate = event(x, &is_struck);
+                CHECK(!is_struck);
+            }
             if (terminate) {
                 return true;
             }
@@ -116,13 +135,15 @@ static bool moved(double *time, double end, double *x)
     return false;
 }
 
-/* A token, a count of steps, their length (s), and whether it is by model exchange. */
+/* A token, a count of steps, their length (s), and the kind: by model exchange if it is `exchange` or
+ * `idle`. */
 int main(int count, char **arguments)
 {
     CHECK(count == 5);
     const int steps = atoi(arguments[2]);
     const double length = atof(arguments[3]);
-    const bool is_exchange = strcmp(arguments[4], "exchange") == 0;
+    is_idle = strcmp(arguments[4], "idle") == 0;
+    const bool is_exchange = is_idle || strcmp(arguments[4], "exchange") == 0;
     double x[MOST], time = 0.0;
     unit = is_exchange
         ? fmi3InstantiateModelExchange("a", arguments[1], "", false, true, NULL, logged)
