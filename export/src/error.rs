@@ -47,6 +47,11 @@ pub enum ExportError {
         /// The name.
         name: String,
     },
+    /// [`Export::about`](crate::Export::about) names neither a parameter nor an input.
+    Member {
+        /// The name.
+        name: String,
+    },
     /// A projection in joint coordinates that keep an equation which the bodies leave out: its
     /// violation is not known. `redundant = "drop"` may drop other rows of a joint in each of the
     /// coordinates. `project` is there in absolute coordinates.
@@ -90,6 +95,9 @@ impl fmt::Display for ExportError {
             ),
             Self::Still => f.write_str("nothing of the mechanism moves: there are no rates to write"),
             Self::Name { name } => write!(f, "the name `{name}` is given twice"),
+            Self::Member { name } => {
+                write!(f, "there is no parameter and no input `{name}`")
+            }
             Self::Projection => f.write_str(
                 "an equation of these coordinates is none of the bodies: `project` is there in absolute coordinates",
             ),

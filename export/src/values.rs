@@ -1,8 +1,12 @@
 //! Parameters and inputs of a mechanism by name.
 
-use holonom::Report;
+use holonom::mechanism::TracedCoordinates;
+use holonom::{Mechanism, Report};
 
+use crate::error::ExportError;
+use crate::export::{Export, INPUTS, PARAMETERS};
 use crate::names::{Names, identifier};
+use crate::number::Precision;
 use crate::program::Member;
 
 /// Where the numbers of a parameter or an input are.
@@ -50,4 +54,28 @@ pub(crate) fn of(report: &Report) -> [Vec<Value>; 2] {
         }
     }
     [parameters, inputs]
+}
+
+impl<M: Mechanism, P: Precision, C: TracedCoordinates<M>> Export<M, P, C> {
+    /// What a parameter or an input is, by its field, with its unit in parentheses, such as
+    /// `torque of the motor (N m)`: the comment of its member. Members of arrays and parts are
+    /// named as they are in the header.
+    #[must_use]
+    pub fn about(mut self, member: &str, text: &str) -> Self {
+        let name = identifier(member);
+        let mut is_known = false;
+        for (place, values) in [PARAMETERS, INPUTS].into_iter().zip(&mut self.values) {
+            let written = &mut self.program.structs[place].members;
+            let members = values.iter_mut().map(|value| &mut value.member);
+            for member in members.chain(written).filter(|member| member.name == name) {
+                text.clone_into(&mut member.about);
+                is_known = true;
+            }
+        }
+        if is_known {
+            self
+        } else {
+            self.refused(ExportError::Member { name })
+        }
+    }
 }

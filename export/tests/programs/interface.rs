@@ -21,11 +21,16 @@ fn members_and_readings_have_names_and_starts() {
     let export = export.reading("x", "of the pole (m)", |view| {
         view.position(CartPole::HANDLES.pole).x
     });
+    let export = export.about("push", "force on the cart (N)");
     let interface = export.interface();
+    let header = export.c().expect("sound").header;
+    let member = "cart_pole_real push; /* force on the cart (N) */";
+    assert!(header.contains(member), "{header}");
     assert_eq!(interface.name, "cart_pole");
     assert_eq!(interface.parameters, []);
     assert_eq!(names(&interface.inputs), ["push"]);
     assert_eq!(interface.inputs[0].start, [2.5]);
+    assert_eq!(interface.inputs[0].about, "force on the cart (N)");
     assert_eq!(names(&interface.readings), ["x"]);
     assert_eq!(interface.readings[0].about, "of the pole (m)");
     let states = interface.states.iter().map(|state| state.quantity.clone());

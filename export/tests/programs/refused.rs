@@ -70,6 +70,10 @@ fn refused() -> Vec<(ExportError, &'static str)> {
             "the name `jacobian` is given twice",
         ),
         (named("state").c().err(), "the name `state` is given twice"),
+        (
+            joints().about("crank", "").c().err(),
+            "there is no parameter and no input `crank`",
+        ),
         (joints().cuda().err(), "say `.step(Rk4)` before `.cuda()`"),
         (opened.c().err(), "joint `right_pin` is open by 0.6"),
         (
