@@ -6,7 +6,6 @@
 use crate::error::{Fault, ModeFault, StepFault};
 use crate::formulation::{Formulation, Solution};
 use crate::math::scalar::Real;
-use crate::math::vec3::{plus, times};
 use crate::mechanism::coordinates::Coordinates;
 use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::BoxProblem;
@@ -17,24 +16,15 @@ use crate::nonsmooth::cone_problem::{
 use crate::nonsmooth::law::Friction;
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
-use crate::nonsmooth::pace::{Haste, Pace};
-use crate::nonsmooth::place::dot;
+use crate::nonsmooth::pace::Haste;
 use crate::nonsmooth::reader::Reader;
-use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::sizes::{AT_BOUND, ENDED, ROUND_OFF, part};
+use crate::nonsmooth::sizes::{AT_BOUND, ROUND_OFF, part};
+use crate::nonsmooth::slip::{combined, share_sizes, tangents_of};
 use crate::nonsmooth::status::{Exerted, Next, Show, Tracked};
 use crate::nonsmooth::tied::{Tied, at, residuals};
 
 /// What was found at the end of its sticking slips, to this part of what it can bear.
 const AT_ITS_END: f64 = 1e-10;
-
-/// The cosine below which slip has passed its zero, and not turned.
-const OPPOSITE: f64 = -0.9;
-
-/// Slip that begins has the direction of its acceleration up to this part of what it is the sum of.
-/// The error of its velocity goes with the power 3/2 of that. How many steps then follow its
-/// direction goes with the power -1/2.
-const BEGUN: f64 = 1e-6;
 
 /// What is as near to what it can bear as this is found there together with another.
 const TOGETHER: f64 = 1e-9;
@@ -48,106 +38,6 @@ pub(super) fn are_rough<S: Real, M: Mechanism>(list: &[Tracked<S, M>]) -> bool {
         let limits = tracked.interaction.law.limits();
         tracked.tangent().is_some() || limits.is_some_and(|limits| limits.is_of_impulses)
     })
-}
-
-/// The places of the friction of a contact.
-pub(super) fn tangents_of<S: Real, M: Mechanism>(
-    list: &[Tracked<S, M>],
-    contact: usize,
-) -> [Option<usize>; 2] {
-    [1, 2].map(|behind| {
-        let index = contact.checked_add(behind)?;
-        let tangent = list.get(index)?.tangent()?;
-        (tangent.behind == behind).then_some(index)
-    })
-}
-
-impl<S: Real, M: Mechanism> Tracked<S, M> {
-    /// The contact of friction that stands at an index.
-    pub(super) fn contact(&self, index: usize) -> Option<usize> {
-        index.checked_sub(self.tangent()?.behind)
-    }
-
-    /// The slip at its contact, along the directions in which that has friction.
-    pub(super) fn slip(&self, reader: &mut Reader<'_, S, M>) -> Slip<S> {
-        let has_both = self.tangent().is_some_and(|tangent| tangent.has_both);
-        let Some(touch) = reader.touch(&self.interaction.quantity) else {
-            return Slip {
-                components: [S::zero(); 2],
-                directions: [[S::zero(); 3]; 2],
-                vector: [S::zero(); 3],
-            };
-        };
-        let [along, across] = touch.slip;
-        let components = [along, if has_both { across } else { S::zero() }];
-        Slip {
-            components,
-            directions: touch.directions,
-            vector: touch.slip_vector(has_both),
-        }
-    }
-
-    /// Whether its contact slips, and it tells how: the friction in the first direction does.
-    fn tells_slip(&self) -> bool {
-        let is_first = self.tangent().is_some_and(|tangent| tangent.behind == 1);
-        is_first && self.mode() == InteractionMode::Slipping
-    }
-
-    /// The direction of the slip at its contact, along the directions of its surface. Beyond its
-    /// zero, as a step that ends its mode looks there, it is the one until then: so the friction of
-    /// a step goes on smoothly. Slip that only turns does not come near the opposite direction.
-    fn direction_of_slip(&self, reader: &mut Reader<'_, S, M>) -> [S; 2] {
-        if !self.tells_slip() {
-            return [S::zero(); 2];
-        }
-        let slip = self.slip(reader);
-        let [along, across] = slip.components;
-        let size = length([along, across]);
-        let known = self.status.slip;
-        let none = part::<S>(ENDED, ROUND_OFF) * self.status.largest;
-        if self.status.ends || size <= none.max(S::smallest()) {
-            let [x, y] = slip.directions.each_ref().map(|way| dot(way, &known));
-            let size = length([x, y]).max(S::smallest());
-            return [x.quotient(size), y.quotient(size)];
-        }
-        let is_opposite = dot(&known, &slip.vector) < S::constant(OPPOSITE) * size;
-        let divisor = if is_opposite { -size } else { size };
-        [along.quotient(divisor), across.quotient(divisor)]
-    }
-
-    /// The direction (global) of its slip, and when a step from there ends at the latest.
-    pub(crate) fn slip_at(&self, scene: &Scene<'_, S, M>) -> ([S; 3], Option<Pace<S>>) {
-        if !self.tells_slip() {
-            return (self.status.slip, None);
-        }
-        let mut reader = Reader::of(scene);
-        let direction = self.direction_of_slip(&mut reader);
-        let slip = self.slip(&mut reader);
-        let size = length(slip.components);
-        let pace = self.status.pace_of(size, scene.time);
-        (combined(&slip.directions, direction), pace)
-    }
-
-    /// How far (m/s) slip that begins is beyond its beginning.
-    pub(crate) fn begun(&self, scene: &Scene<'_, S, M>) -> Option<S> {
-        let beginning = self.status.beginning.filter(|_| self.begins())?;
-        let slip = self.slip(&mut Reader::of(scene));
-        Some(length(slip.components) - beginning)
-    }
-}
-
-/// Slip at a contact.
-pub(super) struct Slip<S> {
-    /// Along both directions of the surface (m/s).
-    components: [S; 2],
-    directions: [[S; 3]; 2],
-    /// The same (global).
-    pub(super) vector: [S; 3],
-}
-
-/// A vector along two directions.
-fn combined<S: Real>([along, across]: &[[S; 3]; 2], [x, y]: [S; 2]) -> [S; 3] {
-    plus(&times(along, x), &times(across, y))
 }
 
 /// The friction of a contact, by the modes that may follow.
@@ -320,6 +210,7 @@ where
     let offset = columns.accelerations(setting, list, &bias, &free.accelerations);
     let motions: [Motion<S>; K] =
         setting.here(|scene| list.each_mut().map(|tracked| Motion::of(tracked, scene)));
+    share_sizes(list);
     let slips = setting.here(|scene| {
         let mut reader = Reader::of(scene);
         list.each_ref().map(|tracked| {
@@ -349,6 +240,7 @@ where
             effort.abs() > part::<S>(AT_BOUND, ROUND_OFF) * alone
         };
         let tracked = &mut list[index];
+        let mut led = None;
         let mode = match (solution.outcomes[index], tracked.status.next) {
             (Outcome::Holds, Next::On(sign)) if bears(index, alone) => {
                 if sign > S::zero() {
@@ -362,8 +254,10 @@ where
             (Outcome::Slips(slip), next) => {
                 let now = setting.here(|scene| tracked.slip(&mut Reader::of(scene)));
                 tracked.status.slip = combined(&now.directions, slip);
-                tracked.status.begins = !matches!(next, Next::Moving(_));
                 let goes_on = tracked.status.before == InteractionMode::Slipping;
+                let size = length(now.components);
+                led = tracked.status.goes_on_led(size).filter(|_| goes_on);
+                tracked.status.begins = led.is_some() || !matches!(next, Next::Moving(_));
                 tracked.status.ends &= goes_on;
                 tracked.status.has_turned &= goes_on;
                 InteractionMode::Slipping
@@ -380,11 +274,7 @@ where
         setting.here(|scene| {
             tracked.enter(mode, scene, efforts, &motions[index]);
             let size = length(tracked.slip(&mut Reader::of(scene)).components);
-            let beginning = S::constant(BEGUN) * tracked.status.largest;
-            tracked.status.beginning = tracked.status.beginning_at(beginning, scene.time);
-            let pace = tracked.status.pace_of(size, scene.time);
-            (tracked.status.pace, tracked.status.known_pace) = (pace, pace);
-            tracked.status.has_turned |= pace.is_some();
+            tracked.status.pace_from(scene.time, size, led);
         });
     }
     // What bears nothing does not rub.

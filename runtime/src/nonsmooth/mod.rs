@@ -23,7 +23,8 @@
 //! Contacts: `contact.rs` is what a user writes, `shape.rs` how shapes lie and move against what
 //! they touch (`place.rs`, `sphere.rs`, `cam.rs` over `profile.rs`). `reader.rs` looks once for all
 //! that asks. Their friction: `cones.rs`, over `cone_problem.rs` and `tied.rs`, which know no
-//! mechanism, and `pace.rs`, by which steps follow slip that turns near its zero (`paced.rs`).
+//! mechanism, `slip.rs`, and `pace.rs`, by which steps follow slip that turns near its zero
+//! (`paced.rs`).
 //!
 //! The reasons are in `docs/decisions/027-interactions.md`, `032-friction-by-load.md` and
 //! `051-contacts-with-friction.md`.
@@ -57,6 +58,7 @@ mod remembered;
 pub(crate) mod scene;
 pub(crate) mod shape;
 mod sizes;
+mod slip;
 mod slipping;
 pub(crate) mod sphere;
 pub(crate) mod status;

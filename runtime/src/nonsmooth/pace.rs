@@ -6,6 +6,9 @@
 //! stick, it ends: its direction stays, up to where the slip along it is zero, and an impulse takes
 //! what is left beside. That and the friction that then holds do together what friction would have
 //! done. Only the way of the slip until then, of the size `|s|^2 / (f - |d|)`, is another.
+//!
+//! Where `|d|` is `f` slip goes on at its size, in the direction of `d`. Once it is little it is
+//! led by that: its direction is that of its acceleration, as of slip that begins.
 
 use crate::integrate::{Memory, Tolerance};
 use crate::math::scalar::Real;
@@ -17,9 +20,10 @@ use crate::nonsmooth::tied::at;
 /// corners, are known to less than the first. A step over slip that grows enlarges what is aside.
 const STRAIGHT_ON: [f64; 2] = [1e-7, 1e-9];
 
-/// Slip that changes by less than this part of all that acts on it stays nearly as it is. Steps
-/// that follow it would be too many.
+/// Slip that changes by less than this part of all that acts on it stays nearly as it is, and a
+/// direction that is off by less than this part is that of what drives it.
 const STEADY: f64 = 1e-5;
+const ALIGNED: f64 = 1e-6;
 
 /// Slip of so many tolerances is resolved by a method that controls its error.
 const OF_TOLERANCE: f64 = 1e3;
@@ -31,7 +35,11 @@ pub(crate) struct Haste<S> {
     pub(super) turning: S,
     /// Whether it turns here.
     pub(super) turns: bool,
+    /// Whether it does not shrink.
     pub(super) grows: bool,
+    /// All that acts on it (m/s^2) where it stays nearly as it is, in the direction of what drives
+    /// it; zero elsewhere.
+    pub(super) steady: S,
 }
 
 impl<S: Real> Haste<S> {
@@ -40,6 +48,7 @@ impl<S: Real> Haste<S> {
             turning: S::zero(),
             turns: false,
             grows: false,
+            steady: S::zero(),
         }
     }
 
@@ -69,14 +78,21 @@ impl<S: Real> Haste<S> {
         let aside = (drive_x * y - drive_y * x).abs();
         let along = (drive_x + friction_x) * x + (drive_y + friction_y) * y;
         let (two, grows) = (S::constant(2.0), along >= S::zero());
+        let is_steady = along.abs() <= S::constant(STEADY) * all;
+        let is_aligned = aside <= S::constant(ALIGNED) * all;
         Self {
-            turning: match grows {
-                _ if along.abs() <= S::constant(STEADY) * all => S::zero(),
-                true => (two * aside).max(all.quotient(two * two)),
-                false => all,
+            turning: if grows || is_steady {
+                (two * aside).max(all.quotient(two * two))
+            } else {
+                all
             },
-            grows,
+            grows: grows || is_steady,
             turns: aside > S::constant(STRAIGHT_ON[usize::from(grows)]) * all,
+            steady: if is_steady && is_aligned {
+                all
+            } else {
+                S::zero()
+            },
         }
     }
 
@@ -84,7 +100,18 @@ impl<S: Real> Haste<S> {
         memory.number(&mut self.turning);
         memory.flag(&mut self.turns);
         memory.flag(&mut self.grows);
+        memory.number(&mut self.steady);
     }
+}
+
+/// Slip at a look into a step.
+pub(crate) struct SlipHere<S> {
+    /// Its direction (global).
+    pub(crate) direction: [S; 3],
+    /// When a step from there ends at the latest.
+    pub(crate) pace: Option<Pace<S>>,
+    /// The size (m/s) up to which it is led, if it is.
+    pub(crate) led: Option<S>,
 }
 
 /// When a step ends at the latest, by slip that turns.

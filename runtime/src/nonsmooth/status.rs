@@ -77,7 +77,10 @@ pub(crate) struct Status<S> {
     /// The direction and that time by the last reading.
     pub(crate) last_slip: [S; 3],
     pub(crate) last_pace: Option<Pace<S>>,
-    /// The slip has begun from rest, and is so small that its acceleration tells its direction.
+    /// The size (m/s) up to which slip is led by what drives it, if it is at the last reading.
+    pub(crate) last_led: Option<S>,
+    /// The slip has begun from rest or is led, and is so small that its acceleration tells its
+    /// direction.
     pub(crate) begins: bool,
     /// It is beyond its beginning at this size (m/s); at the first look where that is not known.
     pub(super) beginning: Option<S>,
@@ -261,6 +264,7 @@ impl<S: Real> Status<S> {
             known_pace: None,
             last_slip: [S::zero(); 3],
             last_pace: None,
+            last_led: None,
             begins: false,
             beginning: None,
             has_turned: false,
@@ -356,6 +360,9 @@ impl<S: Real> Status<S> {
     /// Goes on with the last reading, by which the mode does not end.
     pub(crate) fn go_on(&mut self) {
         if self.mode == InteractionMode::Slipping {
+            if let Some(size) = self.last_led.take() {
+                (self.begins, self.beginning) = (true, Some(size));
+            }
             self.begins &= self.beginning.is_some();
             self.known_pace = self.last_pace;
             self.has_turned |= self.last_pace.is_some();

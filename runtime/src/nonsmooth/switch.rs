@@ -8,12 +8,13 @@ use crate::mechanism::kernels::Mechanism;
 use crate::nonsmooth::box_problem::{BoxProblem, BoxSolution, Factors};
 use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::cone_problem::length;
-use crate::nonsmooth::cones::{self, are_rough, tangents_of};
+use crate::nonsmooth::cones::{self, are_rough};
 use crate::nonsmooth::law::{Friction, Limits, pushes};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{ENDED, OF_TIME, ROUND_OFF, part};
+use crate::nonsmooth::slip::{share_sizes, tangents_of};
 use crate::nonsmooth::status::{Impact, Next, Status, Tracked};
 use crate::state::vector::{Array, StateParts as _};
 
@@ -147,6 +148,7 @@ where
 {
     let mut all: [Struck<S>; K] =
         setting.here(|scene| list.each_mut().map(|tracked| Struck::of(tracked, scene)));
+    share_sizes(list);
     for (index, tracked) in list.iter().enumerate() {
         if let Some(limits) = tracked.interaction.law.limits() {
             let limit = setting.here(|scene| tracked.limit(limits, scene));
@@ -247,7 +249,7 @@ fn stick<S: Real, M: Mechanism, const K: usize>(
         let mut ended = found && slip <= part::<S>(ENDED, ROUND_OFF) * size;
         if let (Some(first), Some(_)) = (list.get_mut(first), second) {
             let status = &mut first.status;
-            ended |= status.ends && status.is_found;
+            ended |= (status.ends || status.begins) && status.is_found;
             status.is_tried = tries && closed && !rests && !ended && status.is_little(slip);
             ended |= status.is_tried;
         }

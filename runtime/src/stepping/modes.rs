@@ -13,6 +13,8 @@ use crate::nonsmooth::status::Status;
 pub(crate) struct Modes<S> {
     /// That of the method, where it has one.
     tolerance: Option<Tolerance<S>>,
+    /// Within how long (s) the direction of slip that is led follows what drives it.
+    moment: S,
     /// How many interactions there are.
     count: usize,
     /// When (s) the efforts were found that the statuses have.
@@ -29,6 +31,7 @@ struct Ahead<S> {
 /// The mode of one.
 struct Mode<'m, S> {
     number: usize,
+    moment: S,
     status: Option<Status<S>>,
     efforts_at: &'m mut Option<S>,
 }
@@ -37,9 +40,11 @@ impl<S: Real> Modes<S> {
     pub(crate) fn of<M: Mechanism>(
         equations: &dyn Evaluate<S, M>,
         tolerance: Option<Tolerance<S>>,
+        moment: S,
     ) -> Self {
         Self {
             tolerance,
+            moment,
             count: equations.interactions().len(),
             efforts_at: None,
         }
@@ -53,6 +58,7 @@ impl<S: Real, M: Mechanism> Guards<S, M> for Modes<S> {
         for number in 0..self.count {
             visit(&mut Mode {
                 number,
+                moment: self.moment,
                 status: None,
                 efforts_at: &mut self.efforts_at,
             })?;
@@ -90,7 +96,9 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
         };
         let value = tracked.reading(&scene);
         if let Some(status) = &mut self.status {
-            (status.last_slip, status.last_pace) = tracked.slip_at(&scene);
+            let slip = tracked.slip_at(&scene, self.moment);
+            (status.last_slip, status.last_pace) = (slip.direction, slip.pace);
+            status.last_led = slip.led;
         }
         if value.to_f64().is_nan() {
             return Err(Fault::Step(StepFault::EventNotANumber {
@@ -115,6 +123,7 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
             if let Some(status) = &self.status {
                 tracked.status.last_slip = status.last_slip;
                 tracked.status.last_pace = status.last_pace;
+                tracked.status.last_led = status.last_led;
             }
         }
     }

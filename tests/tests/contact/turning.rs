@@ -268,3 +268,71 @@ fn slip_across_a_slope_ends_where_its_closed_form_does() {
         }
     }
 }
+
+/// The velocity down a slope and the speed of a ball that touches by its centre, thrown at an angle
+/// (rad) from the way down: `tan a` is so many times the coefficient of its friction.
+fn thrown_on_slope(is_fixed: bool, times: f64, (speed, angle): (f64, f64)) -> (usize, [f64; 2]) {
+    let friction = 0.5;
+    let (sine, cosine) = (times * friction).atan().sin_cos();
+    let plane = Plane::on_ground([0.0, 0.0, RADIUS], [sine, 0.0, cosine]);
+    let (along, across) = (speed * angle.cos(), speed * angle.sin());
+    let velocity = [along * cosine, across, -along * sine];
+    let (ball, h) = (Bowling::default(), Bowling::HANDLES);
+    macro_rules! run {
+        ($method:expr) => {
+            ball.simulation(StandardLagrange, $method)
+                .initial_state(start([0.0, 0.0, RADIUS], velocity, [0.0; 3]))
+                .interactions(Interaction::contact(h.ball, plane).with_friction(friction))
+                .run(0.0..=3.0, every(3.0), |_| ())
+        };
+    }
+    let report = if is_fixed {
+        run!(Rk4::every(1e-3))
+    } else {
+        run!(DormandPrince::new(Tolerance {
+            relative: 1e-10,
+            absolute: 1e-12,
+        }))
+    };
+    let report = report.unwrap_or_else(|fault| panic!("{times} {speed} {angle}: {fault}"));
+    let view = ball.view(3.0, &report.state).expect("a view");
+    let velocity = view.velocity(h.ball);
+    let down = velocity.x * cosine - velocity.z * sine;
+    (report.evaluations, [down, velocity.norm()])
+}
+
+/// Where the slope is as steep as friction holds, what drives slip does not change it once they
+/// have one direction: `|v| + v_down` stays as it is. A little steeper, what has come to rest slips
+/// on at the difference.
+#[test]
+fn on_a_slope_at_the_angle_of_friction_slip_goes_on_as_it_is() {
+    for thrown in [
+        (1.0, 1.6),
+        (1.0, core::f64::consts::PI - 1e-4),
+        (1e-3, 3.1),
+        (1e-7, 0.3),
+        (1e-9, 2.0),
+    ] {
+        let (speed, angle) = thrown;
+        for is_fixed in [false, true] {
+            let (evaluations, [down, size]) = thrown_on_slope(is_fixed, 1.0, thrown);
+            let kept = speed * (1.0 + angle.cos());
+            let off = (size + down - kept).abs();
+            // Fixed steps change slip that turns by half of itself.
+            let bound = if is_fixed { 5e-5 } else { 5e-6 };
+            assert!(off < bound * speed, "{thrown:?}: {size} {down}");
+            assert!(evaluations < 30_000, "{thrown:?}: {evaluations}");
+        }
+    }
+    for times in [1.0 + 1e-5, 1.0 + 1e-7, 1.0 - 1e-7] {
+        let (sine, cosine) = (times * 0.5_f64).atan().sin_cos();
+        let [driven, held] = [GRAVITY * sine, GRAVITY * 0.5 * cosine];
+        let rests = 1e-3 / (driven + held);
+        let wanted = (driven - held).max(0.0) * (3.0 - rests);
+        let thrown = (1e-3, core::f64::consts::PI);
+        for is_fixed in [false, true] {
+            let (_, [down, _]) = thrown_on_slope(is_fixed, times, thrown);
+            assert!((down - wanted).abs() < 1e-12, "{times}: {down} {wanted}");
+        }
+    }
+}

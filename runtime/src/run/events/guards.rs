@@ -8,6 +8,7 @@ use crate::measure::view::View;
 use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
 use crate::mechanism::switch::Switch;
+use crate::nonsmooth::paced::moment;
 use crate::run::driver::Driver;
 use crate::run::events::list::{Happening, Happenings};
 use crate::run::events::switching::{Switching, of, readings_of, sliding, undecided};
@@ -43,7 +44,15 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         let is_fresh = hybrid.is_fresh;
         let seen = self.march.equations().seen();
         let mut guards = OfRun {
-            modes: Modes::of(self.march.equations(), self.course.settings.tolerance),
+            modes: Modes::of(
+                self.march.equations(),
+                self.course.settings.tolerance,
+                moment(
+                    self.course.settings.fixed_step,
+                    hybrid.longest,
+                    hybrid.end - start,
+                ),
+            ),
             // A continuous law holds nothing. One that switches again and again within a fixed step
             // is stiffer than that step resolves; a controlled step follows as often as it is.
             unresolved: match self.march.estimate() {

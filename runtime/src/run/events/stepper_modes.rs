@@ -11,7 +11,7 @@ use crate::mechanism::turns;
 use crate::nonsmooth::checked::check_all;
 use crate::nonsmooth::handle::{InteractionHandle, effort_of, engage, named};
 use crate::nonsmooth::mode::InteractionMode;
-use crate::nonsmooth::paced::end_of_step;
+use crate::nonsmooth::paced::{end_of_step, moment};
 use crate::nonsmooth::status::Impact;
 use crate::run::stepper::{Stepper, Steps};
 use crate::stepping::followed::bodies_by_halves;
@@ -129,7 +129,7 @@ where
             } else {
                 stop - time
             };
-            let mut modes = Modes::of(dynamics, None);
+            let mut modes = Modes::of(dynamics, None, moment(Some(dt), dt, dt));
             let step = StepWithin::take(scheme, dynamics, (time, &next), length)?;
             let near = dynamics.bodies(&next);
             let mut within = Within {
