@@ -20,9 +20,11 @@ use crate::nonsmooth::tied::at;
 /// corners, are known to less than the first. A step over slip that grows enlarges what is aside.
 const STRAIGHT_ON: [f64; 2] = [1e-7, 1e-9];
 
-/// Slip that changes by less than this part of all that acts on it stays nearly as it is, and a
-/// direction that is off by less than this part is that of what drives it.
+/// Slip that changes by less than this part of all that acts on it stays nearly as it is.
 const STEADY: f64 = 1e-5;
+
+/// What drives slip has its direction if it drives it aside by less than this part of all that
+/// acts.
 const ALIGNED: f64 = 1e-6;
 
 /// Slip of so many tolerances is resolved by a method that controls its error.

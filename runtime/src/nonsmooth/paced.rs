@@ -14,8 +14,9 @@ const PART_OF_SLIP: f64 = 0.5;
 /// Slip below this part of what it is the sum of is little.
 const LITTLE_SLIP: f64 = 1e-7;
 
-/// Slip whose direction goes over into that of what drives it within this part of a fixed step, of
-/// the longest step of a method that controls its error, or of the time that is left then.
+/// Slip is led where its direction goes over into that of what drives it within this part of a
+/// fixed step. Of a method that controls its error: of the longest step so far, or of the time that
+/// is left.
 const LED: [f64; 3] = [1e-2, 1e-4, 1e-6];
 
 /// Slip that is led may grow to so many times of that before its direction is its own again; where
@@ -43,8 +44,8 @@ pub(crate) fn end_of_step<S: Real, M: Mechanism>(
     ends.filter(|&end| end > from).fold(until, S::min)
 }
 
-/// How long (s) what drives slip takes at the most to turn slip that it leads: by a fixed step (s),
-/// or else by the longest one so far and by the time until the end of a run.
+/// How long (s) what drives slip takes at the most to turn slip that it leads. It goes by a fixed
+/// step (s), or else by the longest one so far and by the time until the end of a run.
 pub(crate) fn moment<S: Real>(fixed_step: Option<S>, longest: S, left: S) -> S {
     let [fixed, controlled, of_run] = LED.map(S::constant);
     let left = if left.is_finite() { left } else { S::zero() };
@@ -53,8 +54,8 @@ pub(crate) fn moment<S: Real>(fixed_step: Option<S>, longest: S, left: S) -> S {
 }
 
 impl<S: Real> Status<S> {
-    /// The size (m/s) up to which slip of a size is led by what drives it, if it is: where it stays
-    /// nearly as it is, and its direction is that of what drives it within a moment (s).
+    /// The size (m/s) up to which slip of a size is led by what drives it, if it is. It then stays
+    /// nearly as it is, and has the direction of what drives it within a moment (s).
     pub(super) fn led(&self, size: S, moment: S) -> Option<S> {
         let most = moment * self.exerted.haste.steady;
         let is_led = self.follows() && size < most;

@@ -269,8 +269,9 @@ fn slip_across_a_slope_ends_where_its_closed_form_does() {
     }
 }
 
-/// The velocity down a slope and the speed of a ball that touches by its centre, thrown at an angle
-/// (rad) from the way down: `tan a` is so many times the coefficient of its friction.
+/// How many evaluations a ball takes that is thrown at an angle (rad) from the way down a slope and
+/// touches that by its centre; its velocity downwards and its speed after 3 s. The tangent of the
+/// slope is so many times the coefficient of friction.
 fn thrown_on_slope(is_fixed: bool, times: f64, (speed, angle): (f64, f64)) -> (usize, [f64; 2]) {
     let friction = 0.5;
     let (sine, cosine) = (times * friction).atan().sin_cos();

@@ -17,7 +17,7 @@ const DIFFERENT: f64 = 1e-6;
 const STEPS: usize = 20;
 
 /// Directions that are off by so many `EPSILON` over the floor of shares are found where a step no
-/// longer halves that: shares of what motion does not determine are known to no more digits.
+/// longer halves that. Shares of what motion does not determine are known to no more digits.
 const OF_SHARES: f64 = 16.0;
 
 /// Directions from which it starts, before that of relaxation.
