@@ -20,6 +20,10 @@ use crate::mechanism::switch::Switch;
 use crate::monitor::{Monitor, Seen, Work};
 use crate::nonsmooth::status::Tracked;
 
+/// How often what is held is brought back before the impulses of an instant: what moves by the
+/// first time has other rates.
+const BROUGHT_BACK: usize = 2;
+
 /// The power (W) of forces and drivers where a step ends, and their work over it where it was
 /// looked for; `None` where it is not known.
 pub(crate) type Exchanged<S> = (Option<S>, Option<Work<S>>);
@@ -215,8 +219,11 @@ where
         is_moved: bool,
     ) -> Result<M::State<S>, Fault> {
         let mut state = self.nearest(bodies);
-        if !is_moved && let Some(held) = self.held(time, &state)? {
-            state = held;
+        for _ in 0..if is_moved { 0 } else { BROUGHT_BACK } {
+            match self.held(time, &state)? {
+                Some(held) => state = held,
+                None => break,
+            }
         }
         let next = self.switched(time, &state, is_moved)?;
         Ok(self.bodies_near(&next, bodies))

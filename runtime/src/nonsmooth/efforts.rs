@@ -207,7 +207,9 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 }
 
 /// What brings back what is held, to where it is held and to rest: changes of velocities, and of
-/// coordinates as velocities over a unit of time. The least ones in the metric of the mass.
+/// coordinates as velocities over a unit of time. The least ones in the metric of the mass. A limit
+/// that has just been found is brought to its zero beside them: so all that come to theirs together
+/// with it are found at this instant.
 pub(crate) fn corrections<S, M, F, C, const K: usize>(
     setting: &Setting<'_, S, M, F, C>,
     list: &mut [Tracked<S, M>; K],
@@ -223,12 +225,15 @@ where
     if !holds.contains(&true) {
         return Ok(());
     }
-    let columns = Columns::of(setting, list, &holds)?;
-    for (index, tracked) in list.iter_mut().enumerate() {
-        let compliance = columns.delassus[index][index];
-        tracked
-            .status
-            .is_brought_back(setting.saddle.time, compliance);
+    let stands = list.each_ref().map(Tracked::stands);
+    let columns = Columns::of(setting, list, &stands)?;
+    let efforts = list
+        .each_ref()
+        .map(|tracked| tracked.status.exerted.effort.abs());
+    for (tracked, row) in list.iter_mut().zip(&columns.delassus) {
+        let terms = row.iter().zip(&efforts);
+        let change = terms.fold(S::zero(), |sum, (&w, &effort)| w.abs().fused(effort, sum));
+        tracked.status.is_brought_back(setting.saddle.time, change);
     }
     let factors = Factors::of(&columns.delassus, &holds);
     let (rates, beyond) = setting.here(|scene| {
@@ -238,6 +243,11 @@ where
     });
     let impulses = factors.solve(&rates).map(|impulse| -impulse);
     columns.add_velocities(&impulses, velocities);
+    let factors = if stands == holds {
+        factors
+    } else {
+        Factors::of(&columns.delassus, &stands)
+    };
     let moves = factors.solve(&beyond).map(|by| -by);
     *displacements = Array::zeros();
     columns.add_velocities(&moves, displacements);
@@ -245,11 +255,24 @@ where
 }
 
 impl<S: Real, M: Mechanism> Tracked<S, M> {
-    /// How far it is from where it is held; zero where nothing but the rate is.
+    /// Whether a limit has just been found.
+    pub(crate) fn lands(&self) -> bool {
+        let is_limit = self.interaction.law.limits().is_some();
+        is_limit && self.mode() == InteractionMode::Free && self.status.is_found
+    }
+
+    /// Whether it is held, or a limit that has just been found.
+    fn stands(&self) -> bool {
+        self.mode().holds() || self.lands()
+    }
+
+    /// How far it is from where it is held, or from the limit that has been found; zero where
+    /// nothing but the rate is held.
     fn beyond(&self, scene: &Scene<'_, S, M>) -> S {
         let Interaction { quantity, law, .. } = &self.interaction;
         let held = match self.mode() {
             InteractionMode::Sticking => quantity.has_value().then_some(self.status.held),
+            InteractionMode::Free if self.stands() => law.nearest(quantity.value(scene)),
             mode => law.held_at(mode),
         };
         held.map_or(S::zero(), |held| quantity.beyond(scene, held))

@@ -124,6 +124,14 @@ impl<S: Real> Law<S> {
         }
     }
 
+    /// The limit that is nearest to a value.
+    pub(crate) fn nearest(&self, value: S) -> Option<S> {
+        let limits = self.limits()?;
+        let (_, is_lower) = limits.gap(value);
+        let [lower, upper] = limits.bounds;
+        Some(if is_lower { lower } else { upper })
+    }
+
     /// Refuses settings that are not acceptable.
     pub(crate) fn check(&self) -> Result<(), Refused<S>> {
         match self {

@@ -315,11 +315,12 @@ impl<S: Real> Status<S> {
         self.band = band.max(S::smallest());
     }
 
-    /// What is held is brought back at a time: without its effort it would have got a rate.
-    pub(super) fn is_brought_back(&mut self, time: S, compliance: S) {
+    /// What is held is brought back at a time: without the efforts of all that holds it would have
+    /// got a rate by such an acceleration.
+    pub(super) fn is_brought_back(&mut self, time: S, acceleration: S) {
         let span = time - self.since;
         if self.mode.holds() && span > S::zero() {
-            self.kept_from = (compliance * self.exerted.effort * span).abs();
+            self.kept_from = (acceleration * span).abs();
             self.since = time;
         }
     }
