@@ -20,8 +20,54 @@ const STEPS: usize = 20;
 /// longer halves that. Shares of what motion does not determine are known to no more digits.
 const OF_SHARES: f64 = 16.0;
 
-/// Directions from which it starts, before that of relaxation.
-const STARTS: usize = 8;
+/// Directions from which it starts, before that of relaxation: first, and where that finds nothing.
+const STARTS: [usize; 2] = [8, 64];
+
+/// Directions of other contacts than the first one are then turned by these roots, times the number
+/// of the start: so starts lie evenly among all directions of all contacts.
+const ROOTS_OF: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
+
+/// How solutions are looked for.
+struct Search<'a, S, const K: usize> {
+    /// Directions from which slip that is looked for starts.
+    starts: usize,
+    /// Residuals near to those of a solution.
+    relaxed: &'a [S; K],
+    /// Each contact is turned by another part of a turn.
+    apart: bool,
+}
+
+impl<'a, S, const K: usize> Search<'a, S, K> {
+    fn first(relaxed: &'a [S; K]) -> Self {
+        Self {
+            starts: STARTS[0],
+            relaxed,
+            apart: false,
+        }
+    }
+
+    fn last(relaxed: &'a [S; K]) -> Self {
+        Self {
+            starts: STARTS[1],
+            relaxed,
+            apart: true,
+        }
+    }
+}
+
+impl<S: Real, const K: usize> Search<'_, S, K> {
+    /// The sine and the cosine of what the direction of a contact is turned by at a start. All are
+    /// turned alike at first, and each by another part of a turn in the last search.
+    fn turned(&self, start: usize, number: usize) -> (S, S) {
+        let other = number.checked_sub(1).filter(|_| self.apart);
+        let part = match other.and_then(|other| ROOTS_OF.get(other)) {
+            Some(&square) => S::constant(start as f64) * S::constant(square).sqrt(),
+            None => S::constant(start as f64 / self.starts as f64),
+        };
+        let angle = part * S::constant(core::f64::consts::TAU);
+        (angle.sin(), angle.cos())
+    }
+}
 
 /// What is solved for under a choice.
 struct Guess<S, const K: usize> {
@@ -39,10 +85,24 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
         if total > CHOICES {
             return Err(NoSolution::TooMany);
         }
-        let mut found: Option<ConeSolution<S, K>> = None;
         let relaxed = self.relaxed();
+        match self.among(total, &Search::first(&relaxed))? {
+            Some(found) => Ok(found),
+            None => self
+                .among(total, &Search::last(&relaxed))?
+                .ok_or(NoSolution::None),
+        }
+    }
+
+    /// The solution among so many choices.
+    fn among(
+        &self,
+        total: usize,
+        search: &Search<'_, S, K>,
+    ) -> Result<Option<ConeSolution<S, K>>, NoSolution> {
+        let mut found: Option<ConeSolution<S, K>> = None;
         for number in 0..total {
-            let Some(next) = self.under(self.numbered(number), &relaxed) else {
+            let Some(next) = self.under(self.numbered(number), search) else {
                 continue;
             };
             match &found {
@@ -52,7 +112,7 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
                 Some(_) => {}
             }
         }
-        found.ok_or(NoSolution::None)
+        Ok(found)
     }
 
     /// The directions of slip where what there is holds or slips, at the friction of each contact.
@@ -149,8 +209,12 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
         })
     }
 
-    /// The solution under a choice, if it is one; `relaxed` are residuals near to those of one.
-    fn under(&self, mut choices: [Choice<S>; K], relaxed: &[S; K]) -> Option<ConeSolution<S, K>> {
+    /// The solution under a choice, if it is one.
+    fn under(
+        &self,
+        mut choices: [Choice<S>; K],
+        search: &Search<'_, S, K>,
+    ) -> Option<ConeSolution<S, K>> {
         let seeks = |choice: &Choice<S>| matches!(choice, Choice::On(_, Friction::Seeks));
         if !choices.iter().any(seeks) {
             return self.admissible(&choices, &self.efforts(&choices)?);
@@ -164,18 +228,22 @@ impl<S: Real, const K: usize> ConeProblem<S, K> {
             }
         }
         let free = residuals(&self.matrix, &self.offset, &self.efforts(&smooth)?);
-        for start in 0..=STARTS {
-            let turned = start as f64 / STARTS as f64;
-            let angle = S::constant(turned * core::f64::consts::TAU);
-            let (sine, cosine) = (angle.sin(), angle.cos());
-            let from = if start == STARTS { relaxed } else { &free };
+        for start in 0..=search.starts {
+            let from = if start == search.starts {
+                search.relaxed
+            } else {
+                &free
+            };
+            let mut number = 0;
             for (index, choice) in choices.iter_mut().enumerate() {
                 if let (Choice::On(_, friction), true, Role::Pushes { rough, .. }) =
                     (choice, sought[index], self.roles[index])
                 {
                     let [x, y] = rough.map_or([S::zero(); 2], |rough| rough.read(from));
+                    let (sine, cosine) = search.turned(start, number);
                     let way = [cosine * x - sine * y, sine * x + cosine * y];
                     *friction = Friction::Begins(unit(way)?);
+                    number += 1;
                 }
             }
             if let Some(efforts) = self.directed(&mut choices, &sought)

@@ -135,36 +135,46 @@ fn painleves_rod_has_no_motion_or_two() {
     }
 }
 
-/// A block on four corners at rest on an incline: 3 equations of rotation and heave for 4 normal
-/// efforts, 3 for 8 of friction.
-#[test]
-fn four_corners_share_what_they_bear() {
-    // Unit mass and inertias, corners at (+-1, +-1, -0.5).
+/// How much slower a unit of an effort makes the corners of a block of unit mass and inertias.
+type Corners = [[f64; 6]; 12];
+
+/// Its corners at (+-1, +-1, -0.5), each along z, x and y, by (v, w): `v + w x r`.
+fn block() -> Corners {
     let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
     let mut rows = [[0.0_f64; 6]; 12];
     for (corner, [x, y]) in corners.into_iter().enumerate() {
         let z = -0.5;
-        // Velocity by (v, w): v + w x r, along z, x and y.
         rows[3 * corner] = [0.0, 0.0, 1.0, y, -x, 0.0];
         rows[3 * corner + 1] = [1.0, 0.0, 0.0, 0.0, z, -y];
         rows[3 * corner + 2] = [0.0, 1.0, 0.0, -z, 0.0, x];
     }
+    rows
+}
+
+/// The problem of a block that moves, or is drawn, by (v, w).
+fn on_corners(coefficient: f64, motion: &[f64; 6]) -> ConeProblem<f64, 12> {
+    let rows = block();
     let dot = |a: &[f64; 6], b: &[f64; 6]| (0..6).map(|k| a[k] * b[k]).sum::<f64>();
-    let matrix: [[f64; 12]; 12] =
-        core::array::from_fn(|i| core::array::from_fn(|j| dot(&rows[i], &rows[j])));
+    ConeProblem {
+        matrix: core::array::from_fn(|i| core::array::from_fn(|j| dot(&rows[i], &rows[j]))),
+        offset: rows.each_ref().map(|row| dot(row, motion)),
+        roles: core::array::from_fn(|row| {
+            if row % 3 == 0 {
+                rough(coefficient, [Some(row + 1), Some(row + 2)], None)
+            } else {
+                Role::Tangent
+            }
+        }),
+    }
+}
+
+/// A block on four corners at rest on an incline: 3 equations of rotation and heave for 4 normal
+/// efforts, 3 for 8 of friction.
+#[test]
+fn four_corners_share_what_they_bear() {
     for (slope, slides) in [(0.29_f64, false), (0.31, true)] {
         let gravity = [slope, 0.0, -1.0, 0.0, 0.0, 0.0];
-        let problem = ConeProblem {
-            matrix,
-            offset: core::array::from_fn(|row| dot(&rows[row], &gravity)),
-            roles: core::array::from_fn(|row| {
-                if row % 3 == 0 {
-                    rough(0.3, [Some(row + 1), Some(row + 2)], None)
-                } else {
-                    Role::Tangent
-                }
-            }),
-        };
+        let problem = on_corners(0.3, &gravity);
         let found = problem.solved().expect("it is unique");
         let sum = |from: usize| (0..4).map(|k| found.efforts[3 * k + from]).sum::<f64>();
         assert!((sum(0) - 1.0).abs() < 1e-9, "{}", sum(0));
@@ -180,4 +190,32 @@ fn four_corners_share_what_they_bear() {
             assert!((acceleration - wanted).abs() < 1e-9, "{acceleration}");
         }
     }
+}
+
+/// There is a solution of impulses at any time (Moreau 1988).
+#[test]
+fn impulses_that_stop_a_block_are_always_found() {
+    let mut numbers = Numbers(7);
+    let mut stop = 0;
+    for _ in 0..80 {
+        // It falls nearly flat, and as fast as about what friction can stop.
+        let mut motion = [1.0, 1.0, 0.0, 0.1, 0.1, 1.0].map(|part: f64| part * numbers.next());
+        motion[2] = -1.0;
+        let coefficient = 0.5 + 0.5 * numbers.next().abs();
+        let problem = on_corners(coefficient, &motion);
+        let found = match problem.solved() {
+            Ok(found) => found,
+            Err(why) => {
+                assert_eq!(why, NoSolution::Several, "{coefficient} {motion:?}");
+                continue;
+            }
+        };
+        for corner in 0..4 {
+            let [normal, x, y] = [0, 1, 2].map(|k| found.efforts[3 * corner + k]);
+            assert!(normal > -1e-12 && found.residuals[3 * corner] > -1e-12);
+            assert!(length([x, y]) < coefficient * normal + 1e-11);
+        }
+        stop += i32::from(found.residuals.iter().all(|rate| rate.abs() < 1e-11));
+    }
+    assert!(stop > 10, "{stop}");
 }
