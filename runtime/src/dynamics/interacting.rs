@@ -163,8 +163,12 @@ where
         state: &C::State<S>,
         is_moved: bool,
     ) -> Result<C::State<S>, Fault> {
-        let follows = |tracked: &Tracked<S, M>| tracked.status.follows();
-        let tries = self.tracked().iter().any(follows);
+        let lands = self.tracked().iter().any(Tracked::lands);
+        let may_stick = |tracked: &Tracked<S, M>| {
+            let sticks = tracked.tangent().is_some() && tracked.mode() == InteractionMode::Sticking;
+            tracked.status.follows() || lands && sticks
+        };
+        let tries = self.tracked().iter().any(may_stick);
         let how = Strike { is_moved, tries };
         if !tries {
             return self.switched_where(time, state, how);
@@ -179,10 +183,10 @@ where
         if let (Some(list), Some(before)) = (self.forces.list_mut(), before) {
             *list = before;
         }
-        // What would stick is led to its end, see `pace.rs`.
+        // What would stick is led to its end, see `pace.rs`, or has not left its rest.
         let tried = tried.iter().flat_map(|list| list.as_ref());
         for (tracked, tried) in self.tracked_mut().iter_mut().zip(tried) {
-            tracked.status.ends |= next.is_ok() && tried.status.is_tried && sticks(tried);
+            tracked.status.ends = next.is_ok() && tried.status.is_tried && sticks(tried);
         }
         let how = Strike {
             tries: false,

@@ -14,7 +14,7 @@ use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::sizes::{AT_BOUND, ROUND_OFF, part};
+use crate::nonsmooth::sizes::{AT_BOUND, ENDED, ROUND_OFF, part};
 use crate::nonsmooth::status::{Next, Tracked};
 use crate::state::vector::Array as _;
 
@@ -426,6 +426,15 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
             InteractionMode::Sticking => {
                 let at_work = S::constant(NO_ACCELERATION) * S::EPSILON * work;
                 at_work.max(part::<S>(AT_BOUND, ROUND_OFF) * effort.abs())
+            }
+            // What slips idly, as others hold it, has rates of nothing but the error of steps.
+            InteractionMode::Slipping => {
+                let ended = part::<S>(ENDED, ROUND_OFF) * motion.size;
+                if reading > ended {
+                    round_off * motion.size
+                } else {
+                    ended
+                }
             }
             _ => round_off * motion.size,
         };

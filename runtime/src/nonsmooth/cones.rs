@@ -213,11 +213,8 @@ where
     share_sizes(list);
     let slips = setting.here(|scene| {
         let mut reader = Reader::of(scene);
-        list.each_ref().map(|tracked| {
-            let [x, y] = tracked.slip(&mut reader).components;
-            let size = length([x, y]).max(S::smallest());
-            [x.quotient(size), y.quotient(size)]
-        })
+        list.each_ref()
+            .map(|tracked| tracked.direction_to_choose(&mut reader))
     });
     let problem = ConeProblem {
         matrix: columns.delassus,
@@ -239,6 +236,7 @@ where
             let effort = at(&solution.efforts, index);
             effort.abs() > part::<S>(AT_BOUND, ROUND_OFF) * alone
         };
+        let does_grow = does_grow(list, &sizes, index);
         let tracked = &mut list[index];
         let mut led = None;
         let mode = match (solution.outcomes[index], tracked.status.next) {
@@ -256,7 +254,10 @@ where
                 tracked.status.slip = combined(&now.directions, slip);
                 let goes_on = tracked.status.before == InteractionMode::Slipping;
                 let size = length(now.components);
-                led = tracked.status.goes_on_led(size).filter(|_| goes_on);
+                led = tracked
+                    .status
+                    .goes_on_led(size)
+                    .filter(|_| goes_on && does_grow);
                 tracked.status.begins = led.is_some() || !matches!(next, Next::Moving(_));
                 tracked.status.ends &= goes_on;
                 tracked.status.has_turned &= goes_on;
@@ -267,6 +268,7 @@ where
             (Outcome::Given, Next::Still) if tracked.is_overrun() => slides(S::one()),
             _ => tracked.interaction.law.idle_mode(),
         };
+        tracked.status.ends &= mode == InteractionMode::Slipping;
         tracked.status.is_saturated = false;
         tracked.status.rests = false;
         tracked.status.exerted = sizes[index];
@@ -288,6 +290,19 @@ where
         }
     }
     Ok(())
+}
+
+/// Whether the slip in both directions of a contact does not shrink, as friction at an index does.
+fn does_grow<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    sizes: &[Exerted<S>; K],
+    index: usize,
+) -> bool {
+    let contact = list.get(index).and_then(|tracked| tracked.contact(index));
+    match contact.map(|contact| tangents_of(list, contact)) {
+        Some([Some(first), Some(_)]) => sizes.get(first).is_some_and(|first| first.haste.grows),
+        _ => true,
+    }
 }
 
 /// Makes friction that slips a multiple of the effort of its contact, by the direction of its slip.

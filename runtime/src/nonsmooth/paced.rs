@@ -111,7 +111,7 @@ impl<S: Real> Status<S> {
 
     /// Whether slip of a size (m/s) is so little that it ends if it would stick.
     pub(super) fn is_little(&self, size: S) -> bool {
-        self.follows() && size <= part::<S>(LITTLE_SLIP, ROUND_OFF) * self.largest
+        size <= part::<S>(LITTLE_SLIP, ROUND_OFF) * self.largest
     }
 
     /// Whether it slips in a direction that follows the slip.

@@ -10,7 +10,7 @@ use crate::nonsmooth::place::dot;
 use crate::nonsmooth::reader::Reader;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{ENDED, ROUND_OFF, part};
-use crate::nonsmooth::status::Tracked;
+use crate::nonsmooth::status::{Status, Tracked};
 
 /// The cosine below which slip has passed its zero, and not turned.
 const OPPOSITE: f64 = -0.9;
@@ -69,15 +69,35 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         let [along, across] = slip.components;
         let size = length([along, across]);
         let known = self.status.slip;
-        let none = part::<S>(ENDED, ROUND_OFF) * self.status.largest;
-        if self.status.ends || size <= none.max(S::smallest()) {
-            let [x, y] = slip.directions.each_ref().map(|way| dot(way, &known));
-            let size = length([x, y]).max(S::smallest());
-            return [x.quotient(size), y.quotient(size)];
+        if self.status.ends || self.has_ended(size) {
+            return slip.along(&known);
         }
         let is_opposite = dot(&known, &slip.vector) < S::constant(OPPOSITE) * size;
         let divisor = if is_opposite { -size } else { size };
         [along.quotient(divisor), across.quotient(divisor)]
+    }
+
+    /// The same where modes are chosen, after impulses. Slip that is none keeps what it had.
+    pub(super) fn direction_to_choose(&self, reader: &mut Reader<'_, S, M>) -> [S; 2] {
+        let slip = self.slip(reader);
+        let size = length(slip.components);
+        let Status {
+            slip: known,
+            before,
+            ..
+        } = self.status;
+        let went_on = before == InteractionMode::Slipping && dot(&known, &slip.vector) > S::zero();
+        if went_on && self.has_ended(size) {
+            return slip.along(&known);
+        }
+        let size = size.max(S::smallest());
+        slip.components.map(|component| component.quotient(size))
+    }
+
+    /// Whether slip of a size (m/s) is none.
+    fn has_ended(&self, size: S) -> bool {
+        let none = part::<S>(ENDED, ROUND_OFF) * self.status.largest;
+        size <= none.max(S::smallest())
     }
 
     /// Its slip, of which a direction is that of what drives it within a moment (s).
@@ -115,6 +135,15 @@ pub(super) struct Slip<S> {
     pub(super) directions: [[S; 3]; 2],
     /// The same (global).
     pub(super) vector: [S; 3],
+}
+
+impl<S: Real> Slip<S> {
+    /// A direction (global) along both directions of the surface, of length 1.
+    fn along(&self, direction: &[S; 3]) -> [S; 2] {
+        let [x, y] = self.directions.each_ref().map(|way| dot(way, direction));
+        let size = length([x, y]).max(S::smallest());
+        [x.quotient(size), y.quotient(size)]
+    }
 }
 
 /// A vector along two directions.

@@ -192,8 +192,9 @@ where
         }
         report(setting, list, &all, &columns.delassus)?;
     }
+    let are_round_off = is_struck && land_by_round_off(list, &all, setting.saddle.time);
     let hops = if is_struck {
-        hops(list, &all, &columns.delassus, setting.saddle.time)
+        hops(list, &all, &columns.delassus, are_round_off)
     } else {
         [false; K]
     };
@@ -206,7 +207,12 @@ where
         let rests = is_slow || was_at_rest && status.mode != InteractionMode::Free;
         one.rests = one.is_chosen() && (rests || hops[index]);
     }
-    stick(list, &mut all, tries);
+    let how = Sticking {
+        tries,
+        is_struck,
+        are_round_off,
+    };
+    stick(list, &mut all, how);
     let rests = all.each_ref().map(|one| one.rests);
     let last = Factors::of(&columns.delassus, &rests);
     let last = last.solve(&all.each_ref().map(|one| one.motion.rate));
@@ -220,17 +226,33 @@ where
     Ok(())
 }
 
+/// What there is to know of slip that may end at an instant.
+#[derive(Clone, Copy)]
+struct Sticking {
+    /// It is tried whether little slip sticks.
+    tries: bool,
+    is_struck: bool,
+    /// Impulses are those of flights that were round-off.
+    are_round_off: bool,
+}
+
 /// Friction of contacts rests in both directions, where its contact does.
 fn stick<S: Real, M: Mechanism, const K: usize>(
     list: &mut [Tracked<S, M>; K],
     all: &mut [Struck<S>; K],
-    tries: bool,
+    how: Sticking,
 ) {
-    // Slip that a step has led to its zero ends, and so does what ends together with it.
+    let Sticking {
+        tries,
+        is_struck,
+        are_round_off,
+    } = how;
+    // Slip that a step has led to its zero ends, and so does what ends together with it. What
+    // impulses leave is known to the digits of their directions.
     let has_ended = |tracked: &Tracked<S, M>| {
         tracked.mode() == InteractionMode::Slipping && tracked.status.is_found
     };
-    let found = list.iter().any(has_ended);
+    let found = is_struck || list.iter().any(has_ended);
     for contact in 0..K {
         let [Some(first), second] = tangents_of(list, contact) else {
             continue;
@@ -249,8 +271,11 @@ fn stick<S: Real, M: Mechanism, const K: usize>(
         let mut ended = found && slip <= part::<S>(ENDED, ROUND_OFF) * size;
         if let (Some(first), Some(_)) = (list.get_mut(first), second) {
             let status = &mut first.status;
-            ended |= (status.ends || status.begins) && status.is_found;
-            status.is_tried = tries && closed && !rests && !ended && status.is_little(slip);
+            let sticks = status.mode == InteractionMode::Sticking;
+            ended |= (status.ends || status.begins) && status.is_found || status.ends && sticks;
+            let slips = status.mode == InteractionMode::Slipping;
+            let may_stick = (slips || sticks) && status.is_little(slip) || sticks && are_round_off;
+            status.is_tried = tries && closed && !rests && !ended && may_stick;
             ended |= status.is_tried;
         }
         for index in [Some(first), second].into_iter().flatten() {
@@ -260,6 +285,16 @@ fn stick<S: Real, M: Mechanism, const K: usize>(
             }
         }
     }
+}
+
+/// Whether all that is struck ends a flight that was round-off.
+fn land_by_round_off<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    all: &[Struck<S>; K],
+    time: S,
+) -> bool {
+    let mut landings = list.iter().zip(all).filter(|(_, one)| one.is_struck);
+    landings.all(|(tracked, one)| tracked.status.is_round_off(one.before.abs(), time))
 }
 
 /// Which quantities an impulse elsewhere throws off their limits, but so slowly that they rest: at
@@ -272,7 +307,7 @@ fn hops<S: Real, M: Mechanism, const K: usize>(
     list: &[Tracked<S, M>; K],
     all: &[Struck<S>; K],
     matrix: &[[S; K]; K],
-    time: S,
+    are_round_off: bool,
 ) -> [bool; K] {
     let fastest = |index: usize| {
         let mut fastest = S::zero();
@@ -286,9 +321,6 @@ fn hops<S: Real, M: Mechanism, const K: usize>(
         }
         fastest
     };
-    let mut landings = list.iter().zip(all).filter(|(_, one)| one.is_struck);
-    let are_round_off =
-        landings.all(|(tracked, one)| tracked.status.is_round_off(one.before.abs(), time));
     core::array::from_fn(|index| {
         let one = &all[index];
         let (Some(limits), Some(sign)) = (list[index].interaction.law.limits(), one.at_limit)

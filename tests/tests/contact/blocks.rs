@@ -388,3 +388,100 @@ fn a_block_that_lands_flat_does_not_ask_for_the_order_of_its_corners() {
         }
     }
 }
+
+/// How a block begins on a plane or above it.
+struct Throw {
+    friction: f64,
+    /// Poisson's.
+    restitution: f64,
+    /// Along the plane of the description, and about its normal.
+    velocity: [f64; 2],
+    spin: f64,
+    /// Of the plane (rad): the block stands on two corners.
+    tilt: f64,
+    /// That of a method that controls its error.
+    tolerance: Option<f64>,
+}
+
+/// It tips, hops, slips and comes to rest on one corner and on several, whatever their order is and
+/// whatever round-off is in the start.
+#[test]
+fn a_thrown_block_does_not_ask_for_the_order_of_its_corners() {
+    let on_a_plane = |friction, velocity, spin, tolerance| Throw {
+        friction,
+        restitution: 0.0,
+        velocity,
+        spin,
+        tilt: 0.0,
+        tolerance,
+    };
+    let throws = [
+        Throw {
+            restitution: 0.45,
+            ..on_a_plane(0.46, [-1.08, 0.31], 2.57, Some(1e-9))
+        },
+        Throw {
+            restitution: 0.15,
+            tilt: 0.03,
+            ..on_a_plane(0.45, [-0.1, 0.84], -0.3, None)
+        },
+        on_a_plane(0.49, [-0.96, 0.84], 0.04, None),
+        on_a_plane(0.57, [0.47, -1.17], -1.97, Some(1e-9)),
+        on_a_plane(0.42, [0.65, -1.0], 0.35, Some(1e-6)),
+    ];
+    for (number, throw) in throws.iter().enumerate() {
+        let (one, other) = (thrown(throw, false), thrown(throw, true));
+        for (a, b) in one.into_iter().zip(other) {
+            assert!((a - b).abs() < 1e-8, "{number}: {one:?} {other:?}");
+        }
+    }
+}
+
+/// Where it is after 0.3 s, and how fast.
+fn thrown(throw: &Throw, is_other: bool) -> [f64; 6] {
+    let (block, h, end) = (Block::default(), Block::HANDLES, 0.3);
+    let mut start = block.described_state().expect("it is described");
+    let off = if is_other { 1e-12 } else { 0.0 };
+    let [x, y] = throw.velocity;
+    Block::set_velocity(&mut start, h.block, [x + off, y, 0.0].into());
+    Block::set_angular_velocity(&mut start, h.block, [0.0, 0.0, throw.spin].into());
+    let (sine, cosine) = throw.tilt.sin_cos();
+    let below = 0.5 * sine.abs();
+    let ground = Plane::on_ground([-below * sine, 0.0, -below * cosine], [sine, 0.0, cosine])
+        .along([cosine, 0.0, -sine]);
+    let corners = if is_other {
+        [h.third, h.first, h.fourth, h.second]
+    } else {
+        [h.first, h.second, h.third, h.fourth]
+    };
+    let [[a, b, c], [d, e, f], [g, i, j], [k, l, m]] = corners.map(|corner| {
+        Interaction::contact(corner, ground)
+            .restitution_of_impulses(throw.restitution)
+            .with_friction(throw.friction)
+    });
+    let contacts = [a, b, c, d, e, f, g, i, j, k, l, m];
+    let report = match throw.tolerance {
+        Some(tolerance) => {
+            let tolerance = Tolerance {
+                relative: tolerance,
+                absolute: tolerance,
+            };
+            block
+                .simulation(StandardLagrange, DormandPrince::new(tolerance))
+                .initial_state(start)
+                .interactions(contacts)
+                .run(0.0..=end, every(end), |_| ())
+        }
+        None => block
+            .simulation(StandardLagrange, Rk4::every(3e-3))
+            .initial_state(start)
+            .interactions(contacts)
+            .run(0.0..=end, every(end), |_| ()),
+    };
+    let report = report.unwrap_or_else(|fault| panic!("{}: {fault}", throw.friction));
+    let view = block.view(end, &report.state).expect("a view");
+    let (place, velocity) = (view.position(h.block), view.velocity(h.block));
+    [
+        place.x, place.y, place.z, velocity.x, velocity.y, velocity.z,
+    ]
+}
