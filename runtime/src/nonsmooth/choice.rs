@@ -14,9 +14,8 @@ use crate::nonsmooth::loads::{BearingLoads, Reactions};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::scene::Scene;
-use crate::nonsmooth::sizes::{AT_BOUND, ENDED, ROUND_OFF, part};
+use crate::nonsmooth::sizes::{AT_BOUND, ENDED, ROUND_OFF, part, strength_of_forces};
 use crate::nonsmooth::status::{Next, Tracked};
-use crate::state::vector::Array as _;
 
 /// Accelerations that are none, in `EPSILON` of what efforts bring about.
 const NO_ACCELERATION: f64 = 256.0;
@@ -259,17 +258,6 @@ fn mark_blocked<S: Real, M: Mechanism, const K: usize>(
     }
 }
 
-/// Forces and moments on the bodies in the metric of the mass: with what a unit effort does without
-/// constraints, the square of an acceleration.
-fn strength_of_forces<S: Real, M: Mechanism>(scene: &Scene<'_, S, M>) -> S {
-    let forces = M::forces(scene.constants, scene.time, scene.bodies);
-    let mass = M::metric::<S>(scene.constants);
-    let pairs = forces.as_slice().iter().zip(mass.as_slice());
-    pairs.fold(S::zero(), |sum, (&force, &mass)| {
-        (force * force).fused(mass.reciprocal(), sum)
-    })
-}
-
 /// The largest acceleration that is at work, over the root of its compliance: so all quantities
 /// can be compared, whatever their units.
 fn strength_of<S: Real, const K: usize>(
@@ -387,10 +375,11 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         self.status.slips() && self.friction().is_some_and(overrun)
     }
 
-    /// The efforts at work. The bound of a freewheel is zero: that is known beside the forces on
-    /// the bodies, by the square of the effort that does what they would do without constraints.
+    /// The efforts at work. The bound of a freewheel and of a limit is zero: that is known beside
+    /// the forces on the bodies, by the square of the effort that does what they would do without
+    /// constraints.
     fn work_of_zero(&self, work: S, square: S) -> S {
-        if self.is_one_way() {
+        if self.is_one_way() || self.interaction.law.limits().is_some() {
             work.max(square.sqrt())
         } else {
             work
@@ -415,18 +404,16 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         (status.exerted.effort, status.share) = (effort, effort);
         let reading = self.reading(scene);
         let round_off = S::constant(ROUND_OFF) * S::EPSILON;
+        let at_work = S::constant(NO_ACCELERATION) * S::EPSILON * work;
         let floor = match mode {
             InteractionMode::Free => match self.interaction.law.limits() {
                 Some(limits) => self.round_off_of_gap(limits, scene),
                 None => S::zero(),
             },
             InteractionMode::AtLower | InteractionMode::AtUpper => {
-                part::<S>(AT_BOUND, ROUND_OFF) * effort.abs().max(alone)
+                at_work.max(part::<S>(AT_BOUND, ROUND_OFF) * effort.abs().max(alone))
             }
-            InteractionMode::Sticking => {
-                let at_work = S::constant(NO_ACCELERATION) * S::EPSILON * work;
-                at_work.max(part::<S>(AT_BOUND, ROUND_OFF) * effort.abs())
-            }
+            InteractionMode::Sticking => at_work.max(part::<S>(AT_BOUND, ROUND_OFF) * effort.abs()),
             // What slips idly, as others hold it, has rates of nothing but the error of steps.
             InteractionMode::Slipping => {
                 let ended = part::<S>(ENDED, ROUND_OFF) * motion.size;

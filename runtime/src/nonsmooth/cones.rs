@@ -18,7 +18,7 @@ use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::pace::Haste;
 use crate::nonsmooth::reader::Reader;
-use crate::nonsmooth::sizes::{AT_BOUND, ROUND_OFF, part};
+use crate::nonsmooth::sizes::{AT_BOUND, ROUND_OFF, part, strength_of_forces};
 use crate::nonsmooth::slip::{combined, share_sizes, tangents_of};
 use crate::nonsmooth::status::{Exerted, Next, Show, Tracked};
 use crate::nonsmooth::tied::{Tied, at, residuals};
@@ -210,6 +210,7 @@ where
     let offset = columns.accelerations(setting, list, &bias, &free.accelerations);
     let motions: [Motion<S>; K] =
         setting.here(|scene| list.each_mut().map(|tracked| Motion::of(tracked, scene)));
+    let forces = setting.here(strength_of_forces);
     share_sizes(list);
     let slips = setting.here(|scene| {
         let mut reader = Reader::of(scene);
@@ -272,14 +273,25 @@ where
         tracked.status.is_saturated = false;
         tracked.status.rests = false;
         tracked.status.exerted = sizes[index];
-        let efforts = [solution.efforts[index], alone, alone];
+        // A contact that bears nothing any more is known beside the forces on the bodies.
+        let work = if columns.free[index] > S::zero() {
+            alone.max(forces.quotient(columns.free[index]).sqrt())
+        } else {
+            alone
+        };
+        let efforts = [solution.efforts[index], alone, work];
         setting.here(|scene| {
             tracked.enter(mode, scene, efforts, &motions[index]);
             let size = length(tracked.slip(&mut Reader::of(scene)).components);
             tracked.status.pace_from(scene.time, size, led);
         });
     }
-    // What bears nothing does not rub.
+    free_what_is_open(list);
+    Ok(())
+}
+
+/// What bears nothing does not rub.
+fn free_what_is_open<S: Real, M: Mechanism, const K: usize>(list: &mut [Tracked<S, M>; K]) {
     for index in 0..K {
         let contact = list[index].contact(index);
         let is_open = contact
@@ -289,7 +301,6 @@ where
             list[index].status.mode = InteractionMode::Free;
         }
     }
-    Ok(())
 }
 
 /// Whether the slip in both directions of a contact does not shrink, as friction at an index does.

@@ -130,3 +130,14 @@ fn of_joint<S: Real, M: Mechanism>(reading: JointReading, scene: &Scene<'_, S, M
     let arms = (0..bodies).map(|place| norm(&M::joint_point(scene.constants, joint, place)));
     arms.fold(S::zero(), S::max)
 }
+
+/// Forces and moments on the bodies in the metric of the mass: with what a unit effort does without
+/// constraints, the square of an acceleration.
+pub(super) fn strength_of_forces<S: Real, M: Mechanism>(scene: &Scene<'_, S, M>) -> S {
+    let forces = M::forces(scene.constants, scene.time, scene.bodies);
+    let mass = M::metric::<S>(scene.constants);
+    let pairs = forces.as_slice().iter().zip(mass.as_slice());
+    pairs.fold(S::zero(), |sum, (&force, &mass)| {
+        (force * force).fused(mass.reciprocal(), sum)
+    })
+}
