@@ -37,6 +37,13 @@ impl<S: Real> Motion<S> {
         }
     }
 
+    /// Friction makes a rate of what drives slip of a size: it is known to the round-off of that.
+    pub(super) fn goes_with(&mut self, slip: S) {
+        let round_off = S::constant(ROUND_OFF) * S::EPSILON * slip;
+        let size = round_off.quotient(part::<S>(AT_REST, ROUND_OFF));
+        self.size = self.size.max(size);
+    }
+
     /// A rate up to this is none.
     pub(super) fn none(&self) -> S {
         part::<S>(AT_REST, ROUND_OFF) * self.size

@@ -157,9 +157,12 @@ where
     }
     // Friction of a contact may act where that is closed.
     for (index, tracked) in list.iter().enumerate() {
-        if let Some(contact) = tracked.contact(index) {
-            let contact = all.get(contact).and_then(|contact| contact.at_limit);
-            all[index].is_engaged = contact.is_some();
+        let slip = all[index].motion.size;
+        let contact = tracked.contact(index);
+        if let Some(contact) = contact.and_then(|contact| all.get_mut(contact)) {
+            contact.motion.goes_with(slip);
+            let is_closed = contact.at_limit.is_some();
+            all[index].is_engaged = is_closed;
         }
     }
     let chosen = all.each_ref().map(Struck::is_chosen);
