@@ -375,9 +375,9 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         self.status.slips() && self.friction().is_some_and(overrun)
     }
 
-    /// The efforts at work. The bound of a freewheel and of a limit is zero: that is known beside
-    /// the forces on the bodies, by the square of the effort that does what they would do without
-    /// constraints.
+    /// The efforts at work. The bound of a freewheel and of a limit is zero, which is known beside
+    /// the forces on the bodies. Their size is an effort that does as much without constraints; its
+    /// square is given.
     fn work_of_zero(&self, work: S, square: S) -> S {
         if self.is_one_way() || self.interaction.law.limits().is_some() {
             work.max(square.sqrt())

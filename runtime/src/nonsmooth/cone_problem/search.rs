@@ -23,8 +23,8 @@ const OF_SHARES: f64 = 16.0;
 /// Directions from which it starts, before that of relaxation: first, and where that finds nothing.
 const STARTS: [usize; 2] = [8, 64];
 
-/// Directions of other contacts than the first one are then turned by these roots, times the number
-/// of the start: so starts lie evenly among all directions of all contacts.
+/// Directions of other contacts than the first one are then turned by the roots of these, times the
+/// number of the start: so starts lie evenly among all directions of all contacts.
 const ROOTS_OF: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
 
 /// How solutions are looked for.

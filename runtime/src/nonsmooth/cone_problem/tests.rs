@@ -135,10 +135,10 @@ fn painleves_rod_has_no_motion_or_two() {
     }
 }
 
-/// How much slower a unit of an effort makes the corners of a block of unit mass and inertias.
+/// A row for each rate of a corner, by the velocities (v, w) of the body.
 type Corners = [[f64; 6]; 12];
 
-/// Its corners at (+-1, +-1, -0.5), each along z, x and y, by (v, w): `v + w x r`.
+/// The corners of a block at (+-1, +-1, -0.5), each along z, x and y: `v + w x r`.
 fn block() -> Corners {
     let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
     let mut rows = [[0.0_f64; 6]; 12];
@@ -151,7 +151,7 @@ fn block() -> Corners {
     rows
 }
 
-/// The problem of a block that moves, or is drawn, by (v, w).
+/// The problem of a block of unit mass and inertias that moves, or is accelerated, by (v, w).
 fn on_corners(coefficient: f64, motion: &[f64; 6]) -> ConeProblem<f64, 12> {
     let rows = block();
     let dot = |a: &[f64; 6], b: &[f64; 6]| (0..6).map(|k| a[k] * b[k]).sum::<f64>();
@@ -212,8 +212,17 @@ fn impulses_that_stop_a_block_are_always_found() {
         };
         for corner in 0..4 {
             let [normal, x, y] = [0, 1, 2].map(|k| found.efforts[3 * corner + k]);
-            assert!(normal > -1e-12 && found.residuals[3 * corner] > -1e-12);
+            let [opens, along, across] = [0, 1, 2].map(|k| found.residuals[3 * corner + k]);
+            assert!(normal > -1e-12 && opens > -1e-12 && normal * opens < 1e-11);
             assert!(length([x, y]) < coefficient * normal + 1e-11);
+            // What slips has all the friction that there is, against its slip.
+            let slip = length([along, across]);
+            if slip > 1e-6 {
+                for (friction, rate) in [(x, along), (y, across)] {
+                    let wanted = -coefficient * normal * rate / slip;
+                    assert!((friction - wanted).abs() < 1e-6, "{friction} {wanted}");
+                }
+            }
         }
         stop += i32::from(found.residuals.iter().all(|rate| rate.abs() < 1e-11));
     }
