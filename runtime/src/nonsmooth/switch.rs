@@ -503,13 +503,18 @@ where
     C: Coordinates<M>,
 {
     let half = S::constant(0.5);
-    let (mut lost, mut terms) = (S::zero(), S::zero());
-    for one in all {
+    let (mut lost, mut terms, mut round_off) = (S::zero(), S::zero(), S::zero());
+    for (index, one) in all.iter().enumerate() {
         let (before, after) = (one.before, one.motion.rate);
+        let rates = before.abs() + after.abs();
         lost = lost - half * one.impulse * (before + after);
-        terms = terms + half * (one.impulse * (before.abs() + after.abs())).abs();
+        terms = terms + half * (one.impulse * rates).abs();
+        // Rates are known to round-off, and impulses to what makes such rates.
+        if one.impulse != S::zero() {
+            round_off = round_off + (one.motion.none() * rates).quotient(matrix[index][index]);
+        }
     }
-    if are_rough(list) && lost < -(S::constant(GAINS) * terms) {
+    if are_rough(list) && lost < -S::constant(GAINS).fused(terms, round_off) {
         let gains = all.iter().position(|one| one.impulse != S::zero());
         let first = gains.and_then(|index| list.get(index));
         return Err(Fault::Mode(ModeFault::GainsEnergy {
