@@ -18,7 +18,7 @@ use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::pace::Haste;
 use crate::nonsmooth::reader::Reader;
-use crate::nonsmooth::sizes::{AT_BOUND, ROUND_OFF, part, strength_of_forces};
+use crate::nonsmooth::sizes::{ROUND_OFF, part, strength_of_forces};
 use crate::nonsmooth::slip::{combined, share_sizes, tangents_of};
 use crate::nonsmooth::status::{Exerted, Next, Show, Tracked};
 use crate::nonsmooth::tied::{Tied, at, residuals};
@@ -28,6 +28,10 @@ const AT_ITS_END: f64 = 1e-10;
 
 /// What is as near to what it can bear as this is found there together with another.
 const TOGETHER: f64 = 1e-9;
+
+/// A contact that bears less than this part of what it would bear alone is left: shares of what
+/// motion does not determine are known to some 1e-10.
+const BEARS: f64 = 1e-9;
 
 /// Rounds of correction, as of other efforts that hold.
 const ROUNDS: usize = 2;
@@ -233,15 +237,15 @@ where
         } else {
             S::zero()
         };
-        let bears = |index: usize, alone: S| {
-            let effort = at(&solution.efforts, index);
-            effort.abs() > part::<S>(AT_BOUND, ROUND_OFF) * alone
+        let bears = |sign: S| {
+            let effort = sign * at(&solution.efforts, index);
+            effort > part::<S>(BEARS, ROUND_OFF) * alone
         };
         let does_grow = does_grow(list, &sizes, index);
         let tracked = &mut list[index];
         let mut led = None;
         let mode = match (solution.outcomes[index], tracked.status.next) {
-            (Outcome::Holds, Next::On(sign)) if bears(index, alone) => {
+            (Outcome::Holds, Next::On(sign)) if bears(sign) => {
                 if sign > S::zero() {
                     InteractionMode::AtLower
                 } else {
