@@ -75,6 +75,8 @@ pub struct Stepper<P: Solvable, K> {
     projection: Option<Projection<P::Number>>,
     /// Whether the settings of interactions were accepted.
     pub(super) has_begun: bool,
+    /// The state that the last step with contacts led to.
+    pub(super) left: Option<State<P>>,
 }
 
 impl<P: Solvable<Forces: Clone>, K: Copy> Clone for Stepper<P, K> {
@@ -85,6 +87,7 @@ impl<P: Solvable<Forces: Clone>, K: Copy> Clone for Stepper<P, K> {
             clock: self.clock,
             projection: self.projection,
             has_begun: self.has_begun,
+            left: self.left,
         }
     }
 }
@@ -120,6 +123,7 @@ where
             clock: Clock::at(S::zero()),
             projection: None,
             has_begun: false,
+            left: None,
         })
     }
 }
@@ -135,6 +139,7 @@ impl<P: Solvable, K: Scheme<P::Number>> Stepper<P, K> {
             clock: self.clock,
             projection: self.projection,
             has_begun: false,
+            left: None,
         }
     }
 
