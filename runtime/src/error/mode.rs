@@ -37,7 +37,8 @@ pub enum ModeFault {
     },
     /// Friction by the load of its joint has no effort while it slides, or several: what it adds to
     /// its own load, times its coefficient, reaches 1 (Painleve's paradox). Of a contact: no
-    /// efforts fit all contacts that are closed, or several do with different motions.
+    /// efforts fit all contacts that are closed, several do with different motions, or those of
+    /// what slips go to infinity.
     NoUniqueFriction {
         /// The field of the joint or the point.
         joint: &'static str,

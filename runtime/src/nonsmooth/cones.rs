@@ -13,11 +13,13 @@ use crate::nonsmooth::columns::{Columns, Setting};
 use crate::nonsmooth::cone_problem::{
     ConeProblem, ConeSolution, NoSolution, Outcome, Role, Rough, length,
 };
+use crate::nonsmooth::jam;
 use crate::nonsmooth::law::Friction;
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::motion::Motion;
 use crate::nonsmooth::pace::Haste;
 use crate::nonsmooth::reader::Reader;
+use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::sizes::{ROUND_OFF, part, strength_of_forces};
 use crate::nonsmooth::slip::{combined, share_sizes, tangents_of};
 use crate::nonsmooth::status::{Exerted, Next, Show, Tracked};
@@ -291,6 +293,8 @@ where
         });
     }
     free_what_is_open(list);
+    let determinant = setting.here(|scene| determinant(list, scene, &columns.delassus));
+    jam::begin(list, determinant);
     Ok(())
 }
 
@@ -340,6 +344,28 @@ fn follow<S: Real, M: Mechanism, const K: usize>(
         let factor = -(coefficient.unwrap_or(S::zero()) * component);
         tied.follows[index] = Some((contact, factor));
     }
+}
+
+/// What holds in the modes that there are, and what follows it.
+fn tied_in_modes<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    slips: &[[S; 2]; K],
+) -> Tied<S, K> {
+    let mut tied = Tied::nothing();
+    tied.holds = list.each_ref().map(|tracked| tracked.mode().holds());
+    follow(list, slips, &mut tied);
+    tied
+}
+
+/// The determinant of the equations of what holds, with which modes begin.
+fn determinant<S: Real, M: Mechanism, const K: usize>(
+    list: &[Tracked<S, M>; K],
+    scene: &Scene<'_, S, M>,
+    matrix: &[[S; K]; K],
+) -> S {
+    let mut reader = Reader::of(scene);
+    let direction = |tracked: &Tracked<S, M>| tracked.direction_at_beginning(&mut reader);
+    tied_in_modes(list, &list.each_ref().map(direction)).determinant(matrix)
 }
 
 /// What acts at every unknown in the modes that there are.
@@ -408,6 +434,7 @@ fn exerted<S: Real, M: Mechanism, const K: usize>(
                 capacity: tracked.capacity(None),
                 size: S::zero(),
                 haste: Haste::none(),
+                determinant: S::zero(),
             };
         };
         let places = tangents_of(list, contact);
@@ -419,6 +446,7 @@ fn exerted<S: Real, M: Mechanism, const K: usize>(
             capacity: coefficient.unwrap_or(S::zero()) * at(efforts, contact),
             size: length(places.map(read)),
             haste: Haste::none(),
+            determinant: S::zero(),
         }
     })
 }
@@ -453,19 +481,17 @@ where
     F: Formulation<S>,
     C: Coordinates<M>,
 {
-    let mut tied = Tied::nothing();
-    tied.holds = list.each_ref().map(|tracked| tracked.mode().holds());
     let slips = setting.here(|scene| {
         let mut reader = Reader::of(scene);
         let direction = |tracked: &Tracked<S, M>| tracked.direction_of_slip(&mut reader);
         list.each_ref().map(direction)
     });
+    let mut tied = tied_in_modes(list, &slips);
     let mut chosen = tied.holds;
     for (chosen, tracked) in chosen.iter_mut().zip(list) {
         *chosen |= tracked.mode() == InteractionMode::Slipping;
     }
-    follow(list, &slips, &mut tied);
-    let mut efforts = [S::zero(); K];
+    let (mut efforts, mut determinant) = ([S::zero(); K], S::zero());
     let mut hastes = None;
     if chosen.contains(&true) {
         let columns = Columns::of(setting, list, &chosen)?;
@@ -485,6 +511,9 @@ where
                     follow(list, &directions, &mut tied);
                 }
             }
+            if round == 0 {
+                determinant = tied.determinant(&columns.delassus);
+            }
             let change = tied.shared(&columns.delassus, &accelerations, &sticking);
             columns.add_to(&change, solution);
             for (effort, change) in efforts.iter_mut().zip(change) {
@@ -493,19 +522,21 @@ where
             hastes = Some((columns.delassus, accelerations)).filter(|_| show.is_some());
         }
     }
-    if let Some(show) = show {
-        let mut sizes = exerted(list, &efforts);
-        if let Some((matrix, offset)) = &hastes {
-            hasten(list, (matrix, offset), (&efforts, &slips), &mut sizes);
-        }
-        setting.here(|scene| {
-            for (exerted, tracked) in sizes.iter_mut().zip(list) {
-                if let Some(effort) = tracked.sliding_effort(scene) {
-                    exerted.effort = effort;
-                }
-            }
-        });
-        show(&sizes);
+    let Some(show) = show else {
+        return jam::refuse(list, determinant, setting.saddle.time);
+    };
+    let mut sizes = exerted(list, &efforts);
+    if let Some((matrix, offset)) = &hastes {
+        hasten(list, (matrix, offset), (&efforts, &slips), &mut sizes);
     }
+    setting.here(|scene| {
+        for (exerted, tracked) in sizes.iter_mut().zip(list) {
+            exerted.determinant = determinant;
+            if let Some(effort) = tracked.sliding_effort(scene) {
+                exerted.effort = effort;
+            }
+        }
+    });
+    show(&sizes);
     Ok(())
 }

@@ -177,6 +177,7 @@ where
                     capacity: tracked.capacity(loads.map(|loads| loads[index])),
                     size: S::zero(),
                     haste: Haste::none(),
+                    determinant: S::zero(),
                 }
             })
         });

@@ -24,7 +24,7 @@
 //! they touch (`place.rs`, `sphere.rs`, `cam.rs` over `profile.rs`). `reader.rs` looks once for all
 //! that asks. Their friction: `cones.rs`, over `cone_problem.rs` and `tied.rs`, which know no
 //! mechanism, `slip.rs`, and `pace.rs`, by which steps follow slip that turns near its zero
-//! (`paced.rs`).
+//! (`paced.rs`). `jam.rs` tells where friction that slips has no effort any more.
 //!
 //! The reasons are in `docs/decisions/027-interactions.md`, `032-friction-by-load.md` and
 //! `051-contacts-with-friction.md`.
@@ -44,6 +44,7 @@ pub(crate) mod efforts;
 pub(crate) mod handle;
 pub(crate) mod impulse;
 pub(crate) mod interaction;
+pub(crate) mod jam;
 mod law;
 pub(crate) mod loads;
 pub(crate) mod mode;

@@ -57,6 +57,8 @@ impl<S: Real> Status<S> {
             &mut self.since,
             &mut self.kept_from,
             &mut self.exerted.capacity,
+            &mut self.exerted.determinant,
+            &mut self.began,
             &mut self.fastest,
             &mut self.largest,
             &mut self.farthest,

@@ -77,6 +77,15 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
         [along.quotient(divisor), across.quotient(divisor)]
     }
 
+    /// The same where modes have just begun.
+    pub(super) fn direction_at_beginning(&self, reader: &mut Reader<'_, S, M>) -> [S; 2] {
+        if self.begins() && self.tells_slip() {
+            self.slip(reader).along(&self.status.slip)
+        } else {
+            self.direction_of_slip(reader)
+        }
+    }
+
     /// The same where modes are chosen, after impulses. Slip that is none keeps what it had.
     pub(super) fn direction_to_choose(&self, reader: &mut Reader<'_, S, M>) -> [S; 2] {
         let slip = self.slip(reader);

@@ -51,6 +51,8 @@ pub struct Exerted<S> {
     pub(crate) size: S,
     /// By what the slip of a contact changes.
     pub(crate) haste: Haste<S>,
+    /// The determinant of the equations of all that holds, where contacts slip; zero elsewhere.
+    pub(crate) determinant: S,
 }
 
 /// What is done with what all interactions exert, in their order.
@@ -94,6 +96,11 @@ pub(crate) struct Status<S> {
     pub(crate) exerted: Exerted<S>,
     /// The effort with which the mode began.
     pub(crate) share: S,
+    /// The determinant with which modes began, that at the start of a step, and its least part at
+    /// stages: see `jam.rs`.
+    pub(super) began: S,
+    pub(super) determinant: S,
+    pub(super) least_part: S,
     /// When (s) it began, or what it holds was last brought back.
     pub(crate) since: S,
     /// The rate that it kept from arising until then: what is held is known to its round-off.
@@ -175,7 +182,12 @@ impl<S: Real, M: Mechanism> Tracked<S, M> {
 
     /// Whether it is slip that begins.
     pub(super) fn begins(&self) -> bool {
-        self.mode() == InteractionMode::Slipping && self.status.begins
+        self.slips_on_contact() && self.status.begins
+    }
+
+    /// Whether it is friction of a contact that slips.
+    pub(crate) fn slips_on_contact(&self) -> bool {
+        self.mode() == InteractionMode::Slipping
     }
 
     /// The mode.
@@ -247,6 +259,7 @@ impl<S: Real> Exerted<S> {
             capacity: S::zero(),
             size: S::zero(),
             haste: Haste::none(),
+            determinant: S::zero(),
         }
     }
 }
@@ -272,6 +285,9 @@ impl<S: Real> Status<S> {
             is_tried: false,
             exerted: Exerted::nothing(),
             share: S::zero(),
+            began: S::zero(),
+            determinant: S::zero(),
+            least_part: S::zero(),
             since: S::zero(),
             kept_from: S::zero(),
             rests: false,

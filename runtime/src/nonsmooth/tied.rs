@@ -103,6 +103,16 @@ impl<S: Real, const K: usize> Tied<S, K> {
         Lu::of(&square, scales)
     }
 
+    /// The determinant of the equations of what holds, where something follows; zero elsewhere. It
+    /// passes through zero where these efforts pass through infinity.
+    pub(super) fn determinant(&self, matrix: &[[S; K]; K]) -> S {
+        if self.follows.iter().all(Option::is_none) {
+            return S::zero();
+        }
+        let [_, floor] = floors();
+        self.factors(matrix, &[S::one(); K], floor).determinant()
+    }
+
     /// The efforts that make the residuals of all that holds zero. Friction that sticks, of which
     /// the contact and the coefficient are known, has a share in proportion to what that can bear.
     pub(super) fn shared(
@@ -240,6 +250,8 @@ pub(super) struct Lu<S, const K: usize> {
     unknowns: [usize; K],
     factors: [[S; K]; K],
     rows: [usize; K],
+    /// Each exchange of two rows turns the sign of the determinant.
+    sign: S,
     /// What rows and columns are multiplied by; zero of what is no unknown.
     scales: [S; K],
 }
@@ -255,7 +267,7 @@ impl<S: Real, const K: usize> Lu<S, K> {
                 count += 1;
             }
         }
-        let mut rows = unknowns;
+        let (mut rows, mut sign) = (unknowns, S::one());
         let mut factors = [[S::zero(); K]; K];
         for (row, &from) in factors.iter_mut().zip(&unknowns).take(count) {
             if let Some(from) = matrix.get(from) {
@@ -270,6 +282,9 @@ impl<S: Real, const K: usize> Lu<S, K> {
                 if factors[i][k].abs() > factors[largest][k].abs() {
                     largest = i;
                 }
+            }
+            if largest != k {
+                sign = -sign;
             }
             exchange(&mut factors, k, largest);
             exchange(&mut rows, k, largest);
@@ -288,8 +303,15 @@ impl<S: Real, const K: usize> Lu<S, K> {
             unknowns,
             factors,
             rows,
+            sign,
             scales,
         }
+    }
+
+    /// The determinant of the matrix in its scales.
+    fn determinant(&self) -> S {
+        let pivots = self.factors.iter().enumerate().take(self.count);
+        pivots.fold(self.sign, |product, (index, row)| product * row[index])
     }
 
     /// The solution, in the units of the matrix without its scales; zero of what is no unknown.

@@ -6,6 +6,7 @@ use crate::math::scalar::Real;
 use crate::mechanism::at::StateAt;
 use crate::mechanism::kernels::Mechanism;
 use crate::monitor::fastest;
+use crate::nonsmooth::jam;
 use crate::run::driver::Driver;
 use crate::run::passages::LENGTH;
 use crate::state::vector::Vector as _;
@@ -21,6 +22,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         /// by.
         const BEYOND: f64 = 1e6;
         let equations = self.march.equations();
+        let fault = jam::explained(equations.interactions(), fault, last_good.time);
         let not_finite = matches!(
             fault,
             Fault::Step(StepFault::RatesNotFinite { .. } | StepFault::StateNotFinite)

@@ -21,7 +21,7 @@
 //! integration is begun as it was, and then its memory is replaced.
 //!
 //! `passing.rs` and `passages.rs` lead a run through instants at which two points meet that a force
-//! acts between.
+//! acts between. `halved.rs` shortens fixed steps that lead beyond where friction has an effort.
 //!
 //! `kinematics/motion.rs` goes in steps that the motion bounds. It accepts a pose whose position
 //! and velocity are near the prediction: near a branch, another one has other velocities.
@@ -43,6 +43,7 @@ pub(crate) mod dense_step;
 pub(crate) mod driver;
 pub(crate) mod events;
 mod explained;
+mod halved;
 mod handled;
 mod instant;
 pub(crate) mod interactions;

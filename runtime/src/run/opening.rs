@@ -135,6 +135,7 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         at: &StateAt<S, M>,
     ) -> Result<Begun<S>, Fault> {
         self.march.start(span, whole, &at.bodies)?;
+        self.know_factors(at)?;
         let goes_on = self.course.passing.goes_on(span.start);
         if let (Some(monitor), false) = (&mut self.course.monitor, goes_on) {
             monitor.restart();

@@ -124,6 +124,10 @@ const AT_ONCE: usize = 8;
 /// How many steps may be refused at once: a passage takes a few.
 const REFUSED: usize = 64;
 
+/// How often steps may be halved until one is as long as before: up to the digits of the time, and
+/// some more.
+const HALVED: usize = 256;
+
 /// At once: within this part of the longest step of the run.
 const MOMENT: f64 = 1e-3;
 
@@ -152,6 +156,9 @@ pub(crate) struct Passing<S> {
     /// When a step was refused first of those at once (s), and how many.
     refused_from: S,
     refused: usize,
+    /// How long (s) the last segment was that failed and was halved, or one behind it.
+    halved: Option<S>,
+    halvings: usize,
     /// Whether the last step was not taken.
     refuses: bool,
     /// Whether the segment under way ends only because its steps are limited.
@@ -200,6 +207,8 @@ impl<S: Real> Passing<S> {
             swing: S::zero(),
             refused_from: S::zero(),
             refused: 0,
+            halved: None,
+            halvings: 0,
             refuses: false,
             is_cut: false,
             seam: None,
@@ -218,11 +227,13 @@ impl<S: Real> Passing<S> {
     /// Forces may jump where the segment ends.
     pub(crate) fn ends_with_a_jump(&mut self) {
         self.is_cut = false;
+        self.halvings = 0;
     }
 
     /// Forgets what was planned from the end of a segment on that has not reached it.
     pub(crate) fn forget_plan(&mut self) {
         (self.limit, self.next, self.across) = (None, None, None);
+        self.halved = None;
         self.ends_with_a_jump();
     }
 
@@ -236,6 +247,8 @@ impl<S: Real> Passing<S> {
         memory.optional(&mut self.limit);
         memory.optional(&mut self.next);
         memory.optional(&mut self.across);
+        memory.optional(&mut self.halved);
+        memory.count(&mut self.halvings);
         memory.count(&mut self.place);
         memory.number(&mut self.longest);
         memory.count(&mut self.skipped);
@@ -249,7 +262,14 @@ impl<S: Real> Passing<S> {
 
     /// Begins a segment.
     pub(crate) fn begin(&mut self) {
-        self.limit = self.next.take();
+        let two = S::constant(2.0);
+        let grown = self.halved.map(|halved| two * halved);
+        let grown = grown.filter(|&grown| grown < self.longest);
+        self.limit = self.next.take().or(grown);
+        self.halved = self.halved.and(self.limit);
+        if self.halved.is_none() {
+            self.halvings = 0;
+        }
         self.skipped = 0;
     }
 
@@ -299,6 +319,16 @@ impl<S: Real> Passing<S> {
         }
         self.skipped = if judged.is_far && !swings { SKIPPED } else { 0 };
         Ok(true)
+    }
+
+    /// Whether a step (s) from a time (s) on that has failed is tried again, of half its length.
+    pub(super) fn halve(&mut self, time: S, step: S) -> bool {
+        self.longest = self.longest.max(step);
+        let half = S::constant(0.5) * step;
+        (self.next, self.across, self.halved) = (Some(half), None, Some(half));
+        self.halvings += 1;
+        self.refuses = half > self.least(time) && self.halvings < HALVED;
+        self.refuses
     }
 
     /// Plans the next segment (s): across, if it is below the least step.

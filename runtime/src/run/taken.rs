@@ -18,15 +18,13 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         left: S,
         taken: &mut Taken<S, M>,
     ) -> Result<bool, Fault> {
-        let advanced = match self.march.advance() {
+        let fixed_step = self.course.settings.fixed_step;
+        let longest = fixed_step.map_or(left, |step| step.min(left));
+        let advanced = match self.advance() {
             Ok(advanced) => advanced,
             Err(fault) => {
-                let longest = self
-                    .course
-                    .settings
-                    .fixed_step
-                    .map_or(left, |step| step.min(left));
-                let is_shortened = self.tries_again(last_good.borrowed(), longest);
+                let is_shortened = self.tries_again(last_good.borrowed(), longest)
+                    || self.halves(&fault, last_good.time, longest);
                 return if is_shortened { Ok(false) } else { Err(fault) };
             }
         };
@@ -47,6 +45,10 @@ impl<S: Real, M: Mechanism> Driver<'_, S, M> {
         } = last_good;
         (taken.event, taken.better, taken.looks) = (None, None, Looks::NONE);
         if self.looks_for_events() {
+            if let Err(fault) = self.ends_within_modes(taken.end, near) {
+                let is_halved = self.halves(&fault, start, longest);
+                return if is_halved { Ok(false) } else { Err(fault) };
+            }
             taken.event = self.event_within((start, near), taken.end)?;
         }
         if let Some(monitor) = &mut self.course.monitor {

@@ -6,6 +6,7 @@ use crate::error::{Fault, StepFault};
 use crate::integrate::Tolerance;
 use crate::math::scalar::Real;
 use crate::mechanism::kernels::Mechanism;
+use crate::nonsmooth::jam::jammed;
 use crate::nonsmooth::scene::Scene;
 use crate::nonsmooth::status::Status;
 
@@ -36,6 +37,11 @@ struct Mode<'m, S> {
     efforts_at: &'m mut Option<S>,
 }
 
+/// The instant at which friction on contacts jams: the run does not go on from there.
+struct Jam<'m, S> {
+    efforts_at: &'m mut Option<S>,
+}
+
 impl<S: Real> Modes<S> {
     pub(crate) fn of<M: Mechanism>(
         equations: &dyn Evaluate<S, M>,
@@ -55,6 +61,9 @@ impl<S: Real, M: Mechanism> Guards<S, M> for Modes<S> {
     fn each(&mut self, visit: &mut Visit<'_, S, M>) -> Result<(), Fault> {
         // Others may have asked for efforts at other times since.
         self.efforts_at = None;
+        visit(&mut Jam {
+            efforts_at: &mut self.efforts_at,
+        })?;
         for number in 0..self.count {
             visit(&mut Mode {
                 number,
@@ -78,13 +87,7 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
         time: S,
         bodies: &M::State<S>,
     ) -> Result<S, Fault> {
-        let mut list = equations.interactions().iter();
-        // Of a time at which the bodies were others they are old: it is then asked anew.
-        let is_known = *self.efforts_at == Some(time);
-        if !is_known && list.any(|tracked| tracked.mode().holds()) {
-            equations.keep_efforts(time, bodies)?;
-        }
-        *self.efforts_at = Some(time);
+        know_efforts(self.efforts_at, equations, time, bodies)?;
         let Some(tracked) = equations.interactions().get(self.number) else {
             return Ok(S::one());
         };
@@ -143,6 +146,54 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Mode<'_, S> {
         let is_found = self.status.is_some_and(|status| status.is_met(value));
         if let Some(tracked) = equations.interactions_mut().get_mut(self.number) {
             tracked.status.is_found = is_found;
+        }
+        Ok(())
+    }
+}
+
+/// Leaves efforts in the statuses, if they are not those of this time already. Of a time at which
+/// the bodies were others they are old: it is then asked anew.
+fn know_efforts<S: Real, M: Mechanism>(
+    known_at: &mut Option<S>,
+    equations: &mut dyn Evaluate<S, M>,
+    time: S,
+    bodies: &M::State<S>,
+) -> Result<(), Fault> {
+    let mut list = equations.interactions().iter();
+    if *known_at != Some(time) && list.any(|tracked| tracked.mode().holds()) {
+        equations.keep_efforts(time, bodies)?;
+    }
+    *known_at = Some(time);
+    Ok(())
+}
+
+impl<S: Real, M: Mechanism> Guard<S, M> for Jam<'_, S> {
+    fn value(
+        &mut self,
+        equations: &mut dyn Evaluate<S, M>,
+        time: S,
+        bodies: &M::State<S>,
+    ) -> Result<S, Fault> {
+        know_efforts(self.efforts_at, equations, time, bodies)?;
+        let first = equations.interactions().first();
+        Ok(first.map_or(S::one(), |first| first.status.before_jam()))
+    }
+
+    fn is_passed(&self, value: S) -> bool {
+        value <= S::zero()
+    }
+
+    fn beyond(&self, value: S) -> S {
+        -value
+    }
+
+    fn bars(&self) -> bool {
+        true
+    }
+
+    fn take(&mut self, equations: &mut dyn Evaluate<S, M>, time: S, value: S) -> Result<(), Fault> {
+        if value <= S::zero() {
+            return Err(jammed(equations.interactions(), time));
         }
         Ok(())
     }

@@ -6,6 +6,7 @@ mod cams;
 mod corners;
 mod faults;
 mod going_on;
+mod jams;
 mod profiles;
 mod tops;
 mod turning;

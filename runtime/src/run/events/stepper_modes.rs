@@ -10,6 +10,7 @@ use crate::mechanism::orientations::with_unit_orientations;
 use crate::mechanism::turns;
 use crate::nonsmooth::checked::check_all;
 use crate::nonsmooth::handle::{InteractionHandle, effort_of, engage, named};
+use crate::nonsmooth::jam::{begin_step, end_step, may_be_beyond};
 use crate::nonsmooth::mode::InteractionMode;
 use crate::nonsmooth::paced::{end_of_step, moment};
 use crate::nonsmooth::status::Impact;
@@ -29,6 +30,9 @@ const OF_CONTACTS: usize = 16;
 
 /// How often a step may be shortened at once by slip that turns.
 const PACES: usize = 4096;
+
+/// The shortest part of a step that is halved, in units in the last place of the time.
+const LEAST_HALVED: f64 = 64.0;
 
 impl<P, S: Real, M: Mechanism, K> Stepper<P, K>
 where
@@ -142,19 +146,33 @@ where
         };
         let changes = CHANGES + of_each * self.dynamics.tracked().len();
         let (mut changed, mut paced) = (0, 0);
+        let mut limit = None;
         // What is held has rates of round-off, which are none unless somebody has moved it.
         let goes_on = self.has_contacts() && self.left == Some(*state) && !self.is_asked();
         let dynamics = &mut self.dynamics;
         let mut next = dynamics.switched(start, state, !goes_on)?;
         while changed < changes && paced < PACES {
             let stop = end_of_step(dynamics.tracked(), (time, end), None);
+            let stop = limit.map_or(stop, |limit| stop.min(time + limit));
             let length = if time == start && stop == end {
                 dt
             } else {
                 stop - time
             };
             let mut modes = Modes::of(dynamics, None, moment(Some(dt), dt, dt));
-            let step = StepWithin::take(scheme, dynamics, (time, &next), length)?;
+            begin_step(dynamics.tracked_mut());
+            let step = StepWithin::take(scheme, dynamics, (time, &next), length);
+            end_step(dynamics.tracked_mut());
+            let step = match step {
+                Err(fault)
+                    if may_be_beyond(&fault) && length > S::constant(LEAST_HALVED) * time.ulp() =>
+                {
+                    (limit, paced) = (Some(S::constant(0.5) * length), paced + 1);
+                    continue;
+                }
+                step => step?,
+            };
+            limit = limit.map(|limit| S::constant(2.0) * limit);
             let near = dynamics.bodies(&next);
             let mut within = Within {
                 dynamics: &mut *dynamics,
