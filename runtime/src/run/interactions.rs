@@ -55,8 +55,9 @@ where
     ///   handler or a driver.
     /// - [`ModeFault::NoMode`](crate::error::ModeFault::NoMode) and
     ///   [`ModeFault::Endless`](crate::error::ModeFault::Endless) where no modes are found.
-    /// - [`ModeFault::NoUniqueFriction`](crate::error::ModeFault::NoUniqueFriction) and
-    ///   [`ModeFault::LoadNotUnique`](crate::error::ModeFault::LoadNotUnique) of friction by load.
+    /// - [`ModeFault::NoUniqueFriction`](crate::error::ModeFault::NoUniqueFriction) of friction by
+    ///   load and of contacts, [`ModeFault::LoadNotUnique`](crate::error::ModeFault::LoadNotUnique)
+    ///   of friction by load.
     /// - [`StepFault::TooShort`](crate::error::StepFault::TooShort) where the turns of an angle
     ///   with limits cannot be followed.
     /// - [`StartFault::NoInteractions`](crate::error::StartFault::NoInteractions) with
