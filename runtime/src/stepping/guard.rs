@@ -27,8 +27,7 @@ pub(crate) trait Guard<S: Real, M: Mechanism> {
     /// The number so that it is negative before it passes.
     fn beyond(&self, value: S) -> S;
 
-    /// Whether nothing can be read behind where it passes. It then comes before those of which that
-    /// is true.
+    /// Whether nothing can be read behind where it passes. Such a guard is visited before others.
     fn bars(&self) -> bool {
         false
     }
