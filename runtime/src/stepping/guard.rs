@@ -27,11 +27,6 @@ pub(crate) trait Guard<S: Real, M: Mechanism> {
     /// The number so that it is negative before it passes.
     fn beyond(&self, value: S) -> S;
 
-    /// Whether nothing can be read behind where it passes. Such a guard is visited before others.
-    fn bars(&self) -> bool {
-        false
-    }
-
     /// Keeps a number, and where it has passed up to there, until the step is ended or goes on.
     /// One that keeps nothing is a condition of the time and the motion alone.
     fn keep(&mut self, _equations: &mut dyn Evaluate<S, M>, _value: S, _root: Option<S>) {}

@@ -187,10 +187,6 @@ impl<S: Real, M: Mechanism> Guard<S, M> for Jam<'_, S> {
         -value
     }
 
-    fn bars(&self) -> bool {
-        true
-    }
-
     fn take(&mut self, equations: &mut dyn Evaluate<S, M>, time: S, value: S) -> Result<(), Fault> {
         if value <= S::zero() {
             return Err(jammed(equations.interactions(), time));

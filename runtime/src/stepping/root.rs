@@ -9,9 +9,6 @@ use crate::math::scalar::Real;
 use crate::mechanism::at::{At, StateAt};
 use crate::mechanism::kernels::Mechanism;
 
-/// Just before a time is so many units in its last place before: more than a root is located to.
-const JUST_BEFORE: f64 = 8.0;
-
 /// The first time (s) in a step at which a guard passes zero, with the bodies there; `None` of a
 /// step that no guard ends. `is_fresh` where guards may be at zero at its start.
 ///
@@ -26,21 +23,33 @@ pub(crate) fn first_root<S: Real, M: Mechanism>(
 ) -> Result<Option<StateAt<S, M>>, Fault> {
     let mut before = start;
     for time in looks(start, end, is_fresh) {
-        let mut look = look_at(interval, guards, (before, time))?;
-        if let Some(bar) = look.bar {
-            // What passes before is seen just before.
-            let near = bar - S::constant(JUST_BEFORE) * bar.abs().ulp();
-            if near > before {
-                look = look_at(interval, guards, (before, near))?;
+        let bodies = interval.bodies_at(time)?;
+        let mut first: Option<S> = None;
+        guards.each(&mut |guard| {
+            let value = guard.value(interval.equations(), time, &bodies)?;
+            let mut root = None;
+            if guard.is_passed(value) {
+                let beyond = guard.beyond(value);
+                let read = |time: S| {
+                    let bodies = interval.bodies_at(time)?;
+                    let value = guard.value(interval.equations(), time, &bodies)?;
+                    Ok::<S, Fault>(guard.beyond(value))
+                };
+                root = Some(locate((before, time), beyond, read, MOST)?.plain());
             }
-            look.first = look.first.or(look.bar).or(Some(bar));
-        }
-        let Some(root) = look.first else {
+            first = match (first, root) {
+                (Some(first), Some(root)) => Some(first.min(root)),
+                (first, root) => first.or(root),
+            };
+            guard.keep(interval.equations(), value, root);
+            Ok(())
+        })?;
+        let Some(root) = first else {
             guards.each(&mut |guard| {
                 guard.go_on(interval.equations());
                 Ok(())
             })?;
-            interval.look_from(time, look.bodies);
+            interval.look_from(time, bodies);
             before = time;
             continue;
         };
@@ -55,50 +64,4 @@ pub(crate) fn first_root<S: Real, M: Mechanism>(
         return Ok(Some(At { time: root, bodies }));
     }
     Ok(None)
-}
-
-/// A look into a step.
-struct Look<S: Real, M: Mechanism> {
-    bodies: M::State<S>,
-    /// The first root up to there.
-    first: Option<S>,
-    /// That of a guard behind which nothing can be read: no other was asked then.
-    bar: Option<S>,
-}
-
-/// Looks at a time (s), for what passes since another.
-fn look_at<S: Real, M: Mechanism>(
-    interval: &mut dyn Interval<S, M>,
-    guards: &mut dyn Guards<S, M>,
-    (before, time): (S, S),
-) -> Result<Look<S, M>, Fault> {
-    let bodies = interval.bodies_at(time)?;
-    let (mut first, mut bar): (Option<S>, Option<S>) = (None, None);
-    guards.each(&mut |guard| {
-        if bar.is_some() {
-            return Ok(());
-        }
-        let value = guard.value(interval.equations(), time, &bodies)?;
-        let mut root = None;
-        if guard.is_passed(value) {
-            let beyond = guard.beyond(value);
-            let read = |time: S| {
-                let bodies = interval.bodies_at(time)?;
-                let value = guard.value(interval.equations(), time, &bodies)?;
-                Ok::<S, Fault>(guard.beyond(value))
-            };
-            root = Some(locate((before, time), beyond, read, MOST)?.plain());
-        }
-        if root.is_some() && guard.bars() {
-            bar = root;
-            return Ok(());
-        }
-        first = match (first, root) {
-            (Some(first), Some(root)) => Some(first.min(root)),
-            (first, root) => first.or(root),
-        };
-        guard.keep(interval.equations(), value, root);
-        Ok(())
-    })?;
-    Ok(Look { bodies, first, bar })
 }
