@@ -78,7 +78,7 @@ pub(super) fn refuse<S: Real, M: Mechanism>(
     Ok(())
 }
 
-/// Whether a step that has failed is to be tried again, of half its length: a stage of a fixed step
+/// Whether a step that has failed is to be tried again, of half its length. A stage of a fixed step
 /// may look beyond the end of a mode, where the friction of that has no effort.
 pub(crate) fn may_be_beyond(fault: &Fault) -> bool {
     matches!(fault, Fault::Mode(ModeFault::NoUniqueFriction { .. }))

@@ -1,5 +1,6 @@
-//! Steps of a fixed size that lead beyond where the friction of their modes has an effort: they are
-//! tried again, of half their length, up to the end of a mode or to where friction jams.
+//! Steps of a fixed size that lead beyond where the friction of their modes has an effort.
+//!
+//! They are tried again, of half their length, up to the end of a mode or to where friction jams.
 
 use crate::error::Fault;
 use crate::math::scalar::Real;

@@ -24,7 +24,7 @@ const OF_SHARES: f64 = 16.0;
 const STARTS: [usize; 2] = [8, 64];
 
 /// Directions of other contacts than the first one are then turned by the roots of these, times the
-/// number of the start: so starts lie evenly among all directions of all contacts.
+/// number of the start. So starts lie evenly among all directions of all contacts.
 const ROOTS_OF: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
 
 /// How solutions are looked for.
